@@ -12,13 +12,13 @@ namespace maxwrench {
 namespace {
 
 /// With one knot the robot rests; a spline needs two.
-SchemeMaps instants_of(const MotionTask& task, int per_interval) {
+SchemeMaps spline_of(const MotionTask& task, int per_interval) {
   const bool one = task.k + (task.impulse ? 1 : 0) < 2;
   return one ? make_scheme(task) : make_dense_spline(task, per_interval);
 }
 
 /// The maps of the first instant, without a start that is a block of its own.
-SchemeMaps first_of(const SchemeMaps& maps) {
+SchemeMaps first_instant_of(const SchemeMaps& maps) {
   SchemeMaps one;
   one.t.assign(1, 0);
   one.x.assign(1, maps.x.front());
@@ -34,9 +34,9 @@ InstantEvaluator::InstantEvaluator(const Problem& problem, Wrench wrench, const 
       task_(task_of(problem)),
       check_collision_(check_collision && problem.robot.collision != nullptr),
       per_interval_(task_.instants_per_interval),
-      maps_(instants_of(task_, per_interval_)),
+      maps_(spline_of(task_, per_interval_)),
       scenarios_(motion_scenarios(problem, wrench)),
-      one_(first_of(maps_)),
+      one_(first_instant_of(maps_)),
       program_(make_trajectory_program(problem, task_, scenarios_, one_)),
       tracker_(problem),
       dynamics_(problem.robot),

@@ -21,8 +21,8 @@ struct MotionSlopes {
   Eigen::MatrixXd q_place;  ///< joints×r, of q by theta_r; empty without dependent joints
 };
 
-/// Whether the twist of a motion differs from that of the path, or, if the scheme is `smooth` and so
-/// defines accelerations, its derivative.
+/// Whether the twist of a motion differs from that of the path, or, if the scheme is `smooth` and
+/// so defines accelerations, its derivative.
 bool leaves_path(const RobotMotion<double>& motion, const PathPoint& x, bool smooth);
 
 /// The motion of a robot at the instants of a scheme, from a table of knots, and its derivatives.

@@ -12,13 +12,10 @@
 namespace maxwrench {
 namespace {
 
-constexpr int kParts = 32;        // of a batch; not the number of threads
-constexpr int kMostLevel = 20;    // 2^20 + 1 points
-constexpr double kMostCells = 1e6;
-/// The first grid has at most this many evaluations of instants, if each pair of neighbours takes
-/// one at each knot, as a share of the budget.
-constexpr double kFirstShare = 0.25;
-
+constexpr int kParts = 32;      // of a batch; not the number of threads
+constexpr int kMostLevel = 20;  // 2^20 + 1 points
+// Of larger grids, the values of pairs would take gigabytes.
+constexpr double kMostGridCells = 1e6, kMostPairs = 4e6;
 /// Dynamic programming over grids of control points, each with half the spacing of the one before.
 class Dp final : public Search {
  public:
@@ -27,8 +24,9 @@ class Dp final : public Search {
     TrajectoryObjective& objective = require_trajectories(given, "dp");
     const auto* source = dynamic_cast<const InstantSource*>(&objective);
     if (source == nullptr) {
-      throw std::invalid_argument("search: got 'dp' for an objective of another program, expected "
-                                  "that of make_trajectory_objective");
+      throw std::invalid_argument(
+          "search: got 'dp' for an objective of another program, expected "
+          "that of make_trajectory_objective");
     }
     const Box box(objective);
     SearchRun run(options);
@@ -57,7 +55,8 @@ class Dp final : public Search {
       for (Eigen::Index j = 0; j < step.size(); ++j) {
         const auto joint = static_cast<std::size_t>(problem.redundant[static_cast<std::size_t>(j)]);
         const double speed = problem.robot.joints[joint].velocity_max;
-        step[j] = instants.maps().dt > 0 ? speed * instants.maps().dt : kInfinity;
+        // With one knot there is no move.
+        step[j] = instants.maps().dt > 0 ? speed * instants.maps().dt : 0;
       }
     }
     ControlGrid::Size size(int level) const {
@@ -68,14 +67,12 @@ class Dp final : public Search {
     Eigen::VectorXd lower, upper, step, given;
   };
 
-  /// The finest grid that should take a small part of the budget; at least three points.
-  static int first_level(const Limits& limits, int knots, double instants) {
+  /// The coarsest grid; at rest, where a cell takes one evaluation, the finest one.
+  static int first_level(const Limits& limits, int knots, long instants) {
     int level = 1;
-    const double share = knots == 1 ? 1 : kFirstShare;
-    while (level < kMostLevel) {
-      const ControlGrid::Size next = limits.size(level + 1);
-      const double pairs = knots == 1 ? next.cells : next.pairs * knots;
-      if (!(pairs <= share * instants) || next.cells > kMostCells) break;
+    while (knots == 1 && level < kMostLevel) {
+      const double cells = limits.size(level + 1).cells;
+      if (cells > kMostGridCells || cells > static_cast<double>(instants)) break;
       ++level;
     }
     return level;
@@ -88,6 +85,10 @@ class Dp final : public Search {
     for (int part = 0; part < kParts; ++part) motions.emplace_back(source, -1);
     const InstantEvaluator& instants = motions.front().instants();
     const MotionTask& task = instants.task();
+    if (task.transfer) {
+      throw std::invalid_argument(
+          "search: got 'dp', which does not support a transfer, expected another search");
+    }
     const Limits limits(instants);
     const long per_evaluation = instants.maps().instants();
     long over = 0;  // instants that no evaluation has counted yet
@@ -98,11 +99,11 @@ class Dp final : public Search {
     // One evaluation is kept for the trajectory that a grid gives.
     const auto left = [&] { return (probe.left() - 1) * per_evaluation - over; };
     int done = 0;
-    for (int level = first_level(limits, motions.front().knots(), static_cast<double>(left()));
-         level <= kMostLevel; ++level) {
+    for (int level = first_level(limits, motions.front().knots(), left()); level <= kMostLevel;
+         ++level) {
       const ControlGrid::Size size = limits.size(level);
-      const bool small = motions.front().knots() == 1 || size.pairs <= static_cast<double>(left());
-      if (!small || !(size.cells <= kMostCells)) return describe(done, Limits::points(level));
+      const bool fits = size.pairs <= std::min(static_cast<double>(left()), kMostPairs);
+      if (!fits || size.cells > kMostGridCells) return describe(done, Limits::points(level));
       const ControlGrid grid(limits.lower, limits.upper, Limits::points(level), limits.step,
                              limits.given);
       for (const int peak : peaks(task)) {
@@ -146,9 +147,10 @@ class Dp final : public Search {
   }
 
   static std::string describe(int done, int next) {
-    if (done == 0) return fmt::format("a grid of {} points takes more evaluations", next);
-    return fmt::format("best of a grid of {} points for each coordinate; {} take more evaluations",
-                       done, next);
+    if (done == 0) return fmt::format("a grid of {} points takes more evaluations or memory", next);
+    return fmt::format(
+        "best of a grid of {} points for each coordinate; {} take more evaluations or memory", done,
+        next);
   }
 };
 

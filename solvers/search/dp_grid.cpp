@@ -9,11 +9,11 @@ namespace {
 constexpr double kStepSlack = 1e-9;  // [rad or m] of the differences, for rounding
 
 /// The points of a coordinate.
-int points_of(double lower, double upper, int points) { return lower < upper ? points : 1; }
+int grid_points_of(double lower, double upper, int points) { return lower < upper ? points : 1; }
 
 /// Cells that a coordinate may move.
-int reach_of(double lower, double upper, int points, double step) {
-  const int own = points_of(lower, upper, points);
+int cells_within(double lower, double upper, int points, double step) {
+  const int own = grid_points_of(lower, upper, points);
   if (own == 1) return 0;
   const double cell = (upper - lower) / (own - 1);
   return static_cast<int>(std::min<double>(own - 1, std::floor((step + kStepSlack) / cell)));
@@ -25,8 +25,8 @@ ControlGrid::Size ControlGrid::size(const Eigen::VectorXd& lower, const Eigen::V
                                     int points, const Eigen::VectorXd& step) {
   Size size;
   for (Eigen::Index j = 0; j < lower.size(); ++j) {
-    const int own = points_of(lower[j], upper[j], points);
-    const int reach = reach_of(lower[j], upper[j], points, step[j]);
+    const int own = grid_points_of(lower[j], upper[j], points);
+    const int reach = cells_within(lower[j], upper[j], points, step[j]);
     size.cells *= own;
     // Of all cells, 2 reach + 1 neighbours each, less those beyond the ends.
     size.pairs *= own * (2.0 * reach + 1) - reach * (reach + 1.0);
@@ -42,8 +42,8 @@ ControlGrid::ControlGrid(const Eigen::VectorXd& lower, const Eigen::VectorXd& up
   cells_ = 1;
   for (Eigen::Index j = 0; j < r; ++j) {
     const auto k = static_cast<std::size_t>(j);
-    own[k] = points_of(lower[j], upper[j], points);
-    reach[k] = reach_of(lower[j], upper[j], points, step[j]);
+    own[k] = grid_points_of(lower[j], upper[j], points);
+    reach[k] = cells_within(lower[j], upper[j], points, step[j]);
     cells_ *= own[k];
   }
   at_.resize(r, cells_ + (given.size() > 0 ? 1 : 0));

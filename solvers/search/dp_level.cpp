@@ -11,6 +11,7 @@ namespace {
 
 /// Number of states that are expanded at once; it does not depend on the threads.
 constexpr std::size_t kExpanded = 8;
+constexpr std::size_t kMostStates = 10'000'000;  // a gigabyte
 
 }  // namespace
 
@@ -45,9 +46,7 @@ bool DpLevel::run_batch(long parts, const std::function<void(long, DpMotion&)>& 
 }
 
 /// Whether P_0 may be this cell: the given one if there is one.
-bool DpLevel::starts_at(int cell) const {
-  return !has_start() || cell == grid_.given();
-}
+bool DpLevel::starts_at(int cell) const { return !has_start() || cell == grid_.given(); }
 
 void DpLevel::sort_followers(int i) {
   const std::vector<double>& V = V_[static_cast<std::size_t>(i)];
@@ -76,8 +75,7 @@ void DpLevel::bound_pairs(int i, int b, DpMotion& motion) {
         const double then = V_[next][static_cast<std::size_t>(follower)];
         if (!(then > best)) break;
         const int d = grid_.to(follower);
-        const double here =
-            motion.at_knot(i + 1, grid_.at(b), grid_.at(c), grid_.at(d), best);
+        const double here = motion.at_knot(i + 1, grid_.at(b), grid_.at(c), grid_.at(d), best);
         best = std::max(best, std::min(here, then));
       }
     }
@@ -97,8 +95,9 @@ bool DpLevel::backward() {
     const int from = has_start() && i <= 1 ? grid_.given() : 0;
     for (int first = from; first < cells; first += batch) {
       const long parts = std::min(batch, cells - first);
-      const bool done = run_batch(
-          parts, [&](long p, DpMotion& motion) { bound_pairs(i, first + static_cast<int>(p), motion); });
+      const bool done = run_batch(parts, [&](long p, DpMotion& motion) {
+        bound_pairs(i, first + static_cast<int>(p), motion);
+      });
       if (!done) return false;
     }
     sort_followers(i);
@@ -136,7 +135,8 @@ void DpLevel::expand(const State& state, long number, DpMotion& motion,
 bool DpLevel::forward(Result& result) {
   std::vector<State> states;
   const auto worse = [&](long p, long q) {
-    const State &one = states[static_cast<std::size_t>(p)], &other = states[static_cast<std::size_t>(q)];
+    const State &one = states[static_cast<std::size_t>(p)],
+                &other = states[static_cast<std::size_t>(q)];
     if (one.bound != other.bound) return one.bound < other.bound;
     return one.i != other.i ? one.i < other.i : p > q;
   };
@@ -161,7 +161,8 @@ bool DpLevel::forward(Result& result) {
   const auto key = [&](const State& state) {
     const auto cells = static_cast<std::uint64_t>(grid_.cells()) + 1;
     std::uint64_t k = static_cast<std::uint64_t>(state.i);
-    for (const int cell : {state.a, state.b, state.c}) k = k * cells + static_cast<std::uint64_t>(cell);
+    for (const int cell : {state.a, state.b, state.c})
+      k = k * cells + static_cast<std::uint64_t>(cell);
     return k;
   };
   std::vector<std::vector<State>> children(kExpanded);
@@ -178,7 +179,7 @@ bool DpLevel::forward(Result& result) {
       children[at].clear();
       expand(states[static_cast<std::size_t>(batch[at])], batch[at], motion, children[at]);
     });
-    if (!done) return false;
+    if (!done || states.size() > kMostStates) return false;
     for (std::size_t p = 0; p < batch.size(); ++p) {
       for (const State& child : children[p]) {
         const auto [at, is_new] = known.emplace(key(child), child.value);

@@ -39,17 +39,17 @@ class DpLevel {
           Spend spend);
 
   struct Result {
-    bool complete = false;    ///< false: needs more instants than it was allowed, or interrupted
+    bool complete = false;      ///< false: needs more instants than it was allowed, or interrupted
     double value = -kInfinity;  ///< -infinity: no motion exceeds `above`
-    std::vector<int> cells;   ///< of the control points P_0 .. P_K-1
+    std::vector<int> cells;     ///< of the control points P_0 .. P_K-1
   };
   /// The best motion whose value exceeds `above`, if it takes at most this many instants.
   Result solve(double above, long instants);
 
  private:
   struct State {
-    int i = -1;            ///< the last knot that was evaluated
-    int a = 0, b = 0, c = 0;  ///< cells of P_i-1, P_i, P_i+1; of i = -1 those of i = 0
+    int i = -1;                ///< the last knot that was evaluated
+    int a = 0, b = 0, c = 0;   ///< cells of P_i-1, P_i, P_i+1; of i = -1 those of i = 0
     double value = kInfinity;  ///< the least one so far
     double bound = kInfinity;  ///< of the complete motion
     long parent = -1;

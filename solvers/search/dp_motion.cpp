@@ -36,8 +36,7 @@ double DpMotion::value(int instant, bool at_knot, double above) {
   return value;
 }
 
-double DpMotion::at_knot(int i, const Eigen::VectorXd& a, const Eigen::VectorXd& b,
-                         const Eigen::VectorXd& c, double above) {
+double DpMotion::at_knot(int i, const Point& a, const Point& b, const Point& c, double above) {
   const SchemeMaps& maps = instants_->maps();
   if (maps.starts && i == 0 && instants_->problem().dependent.empty()) return kInfinity;  // given
   theta_r_ = (a + 4 * b + c) / 6;
@@ -50,8 +49,8 @@ double DpMotion::at_knot(int i, const Eigen::VectorXd& a, const Eigen::VectorXd&
   return value(maps.knot_at[static_cast<std::size_t>(i)], true, above);
 }
 
-double DpMotion::in_interval(int i, const Eigen::VectorXd& a, const Eigen::VectorXd& b,
-                             const Eigen::VectorXd& c, const Eigen::VectorXd& d, double above) {
+double DpMotion::in_interval(int i, const Point& a, const Point& b, const Point& c, const Point& d,
+                             double above) {
   const SchemeMaps& maps = instants_->maps();
   const Problem& problem = instants_->problem();
   const int per = instants_->per_interval();

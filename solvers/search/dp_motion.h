@@ -24,6 +24,8 @@ namespace maxwrench {
 /// hold at all times.
 class DpMotion {
  public:
+  using Point = Eigen::Ref<const Eigen::VectorXd>;
+
   /// `peak`: the knot of the peak of an impulse, or -1; at other instants an impulse needs balance
   /// only.
   DpMotion(const InstantSource& source, int peak);
@@ -41,12 +43,11 @@ class DpMotion {
 
   /// The value at knot i with the control points a, b, c before, at and after it. Checks collisions
   /// if the value exceeds `above`; otherwise it does not matter.
-  double at_knot(int i, const Eigen::VectorXd& a, const Eigen::VectorXd& b,
-                 const Eigen::VectorXd& c, double above);
+  double at_knot(int i, const Point& a, const Point& b, const Point& c, double above);
   /// The least value of the instants after knot i until knot i + 1; or any value not above `above`
   /// if one of them is not.
-  double in_interval(int i, const Eigen::VectorXd& a, const Eigen::VectorXd& b,
-                     const Eigen::VectorXd& c, const Eigen::VectorXd& d, double above);
+  double in_interval(int i, const Point& a, const Point& b, const Point& c, const Point& d,
+                     double above);
 
  private:
   double value(int instant, bool at_knot, double above);

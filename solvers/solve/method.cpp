@@ -207,7 +207,7 @@ bool supported_between_facets(const Problem& problem, const std::string& measure
 }
 
 std::vector<std::string> supported_solvers(const Problem& problem, const std::string& measure,
-                                        Wrench wrench) {
+                                           Wrench wrench) {
   std::vector<std::string> names;
   const MeasureEntry& entry = find_measure(measure);
   if (problem.motion) {
@@ -224,10 +224,14 @@ std::vector<std::string> supported_solvers(const Problem& problem, const std::st
 }
 
 std::vector<std::string> supported_searches(const Problem& problem, const std::string& measure,
-                                         Wrench wrench) {
+                                            Wrench wrench) {
   std::vector<std::string> names;
+  const bool transfer = problem.motion && problem.motion->transfer;
   const auto add = [&](std::span<const SearchEntry> table) {
-    for (const SearchEntry& search : table) names.emplace_back(search.name);
+    for (const SearchEntry& search : table) {
+      const bool by_instants = search.name == std::string("dp");  // a mass is one for all of them
+      if (!(transfer && by_instants)) names.emplace_back(search.name);
+    }
   };
   if (problem.motion) add(trajectory_searches());
   add(searches());
@@ -275,9 +279,9 @@ int thread_count(int threads) {
 
 void set_scheme(const char* key, const std::string& scheme, Problem& problem) {
   MotionTask& task = *problem.motion;
-  const std::vector<std::string> supported = task.has_factor()
-                                              ? std::vector<std::string>{to_string(Scheme::kSpline)}
-                                              : scheme_names(task.impulse);
+  const std::vector<std::string> supported =
+      task.has_factor() ? std::vector<std::string>{to_string(Scheme::kSpline)}
+                        : scheme_names(task.impulse);
   if (std::find(supported.begin(), supported.end(), scheme) == supported.end()) {
     throw std::invalid_argument(fmt::format("{}: got '{}', expected one of {} for {} {}", key,
                                             scheme, fmt::join(supported, " "),

@@ -3,6 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "maxwrench/load.h"
 #include "maxwrench/problem.h"
@@ -11,6 +15,7 @@
 #include "maxwrench/trajectory.h"
 #include "solvers/search/dp_level.h"
 #include "solvers/search/makers.h"
+#include "solvers/solve/method.h"
 
 namespace maxwrench {
 namespace {
@@ -46,8 +51,8 @@ class DpCase {
     return level.solve(above, instants);
   }
 
-  /// The best value of all tables whose control points are on the grid and differ from each other by
-  /// the largest step at most, by the task's own evaluation.
+  /// The best value of all tables whose control points are on the grid and differ from each other
+  /// by the largest step at most, by the task's own evaluation.
   double brute_force(int knots) {
     std::vector<int> cells(static_cast<std::size_t>(knots), 0);
     double best = -kInfinity;
@@ -59,7 +64,8 @@ class DpCase {
       for (int cell = 0; cell < grid->cells(); ++cell) {
         const auto at = static_cast<std::size_t>(i);
         const bool near =
-            i == 0 || ((grid->at(cell) - grid->at(cells[at - 1])).array().abs() <= step.array()).all();
+            i == 0 ||
+            ((grid->at(cell) - grid->at(cells[at - 1])).array().abs() <= step.array()).all();
         if (!near) continue;
         cells[at] = cell;
         choose(i + 1);
@@ -212,7 +218,8 @@ TEST(Dp, GridSizesAreThoseOfTheGrid) {
     EXPECT_EQ(static_cast<double>(grid.pairs()), size.pairs);
     for (int a = 0; a < grid.cells(); ++a) {
       for (long p = grid.first(a); p < grid.first(a + 1); ++p) {
-        EXPECT_TRUE(((grid.at(a) - grid.at(grid.to(p))).array().abs() <= step.array() + 1e-9).all());
+        EXPECT_TRUE(
+            ((grid.at(a) - grid.at(grid.to(p))).array().abs() <= step.array() + 1e-9).all());
       }
     }
   }
@@ -284,6 +291,17 @@ TEST(Dp, AnImpulseStartsWhereItIsGiven) {
   EXPECT_EQ(best.cells[0], dp.grid->given());
   EXPECT_EQ(best.cells[1], dp.grid->given());
   EXPECT_GT(best.value, 0);
+}
+
+/// The mass of a transfer is no least value of instants, so neither the list of its searches nor
+/// the search itself accepts it.
+TEST(Dp, RefusesATransfer) {
+  const Problem problem = load_problem(MAXWRENCH_SOURCE_DIR "/examples/tasks/two_link/luus.toml");
+  const auto names = supported_searches(problem, "linf_polytope", Wrench::kPure);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "dp"), 0);
+  EXPECT_EQ(std::count(names.begin(), names.end(), "slp"), 1);
+  const auto objective = dp_objective(problem);
+  EXPECT_THROW(make_dp()->maximize(*objective, dp_options(problem, 50)), std::invalid_argument);
 }
 
 /// slp continues from its plan.
