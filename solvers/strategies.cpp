@@ -293,7 +293,9 @@ std::span<const SearchEntry> searches() {
 std::span<const SearchEntry> trajectory_searches() {
   static const SearchEntry kTrajectorySearches[] = {
     {"slp", "sequential linear programming in knots, efforts and wrenches, from many starts", false,
-     make_slp, false, 0, 1, true},
+     make_slp, true, 0, 1, true},
+    {"dp", "dynamic programming over grids of control points, best for one or two coordinates",
+     false, make_dp, false, 0.5, 1, true},
 #if MAXWRENCH_WITH_IPOPT
     {"joint_nlp", "Ipopt in knots, efforts and wrenches together, from the starts of slp", false,
      make_joint_nlp, false, 0, 5},

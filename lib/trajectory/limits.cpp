@@ -1,6 +1,8 @@
 #include "lib/trajectory/limits.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 
 #include "lib/robot/chain.h"
@@ -18,6 +20,11 @@ constexpr double kSpareOfPosture = 1e-7;
 const Joint& joint_of(const Problem& problem, Eigen::Index coordinate) {
   return problem.robot
       .joints[static_cast<std::size_t>(problem.redundant[static_cast<std::size_t>(coordinate)])];
+}
+
+/// The tolerance of the limits of dependent joints.
+double tolerance_of(const Problem& problem) {
+  return problem.motion ? kTableTolerance : kLimitTolerance;
 }
 
 /// "knots 3 and 4" for the row of a difference; "between knots 3 and 4" for an instant.
@@ -66,7 +73,7 @@ class DependentJoint {
         instants_(instants),
         q_(joint),
         v_(static_cast<int>(problem.robot.base_axes.size()) + joint),
-        tolerance_(problem.motion ? kTableTolerance : kLimitTolerance) {}
+        tolerance_(tolerance_of(problem)) {}
 
   double place(int i) const { return instants_[static_cast<std::size_t>(i)].q[q_]; }
   double rate(int i) const { return instants_[static_cast<std::size_t>(i)].v[v_]; }
@@ -204,6 +211,19 @@ std::string motion_violation(const Problem& problem, const MotionEvaluator& moti
     if (!violation.empty()) return violation;
   }
   return {};
+}
+
+bool dependent_joints_hold(const Problem& problem, const Eigen::VectorXd& q,
+                           const Eigen::VectorXd& v) {
+  const std::size_t axes = problem.robot.base_axes.size();
+  return std::all_of(problem.dependent.begin(), problem.dependent.end(), [&](int number) {
+    const auto index = static_cast<std::size_t>(number);
+    const Joint& joint = problem.robot.joints[index];
+    const double place = q[number], rate = v[static_cast<Eigen::Index>(axes + index)];
+    return place >= joint.q_min - tolerance_of(problem) &&
+           place <= joint.q_max + tolerance_of(problem) &&
+           std::abs(rate) <= joint.velocity_max + kTableTolerance;
+  });
 }
 
 DependentRows make_dependent_rows(const Problem& problem, const MotionEvaluator& motion,

@@ -27,6 +27,11 @@ std::string knots_violation(const Problem& problem, const SchemeMaps& maps,
 std::string motion_violation(const Problem& problem, const MotionEvaluator& motion,
                              const std::vector<Instant>& instants);
 
+/// Whether the dependent joints are within their limits and their speed limits at one instant of a
+/// task in time. q: all joints; v: all velocities.
+bool dependent_joints_hold(const Problem& problem, const Eigen::VectorXd& q,
+                           const Eigen::VectorXd& v);
+
 /// The limits of dependent joints and of their rates at all instants except the start, as functions
 /// of the knots (k r, without theta_0 of an impulse). Gives the values at an evaluated motion, and
 /// the derivatives.

@@ -15,6 +15,14 @@ using D4 = Dual<4>;
 
 }  // namespace
 
+bool leaves_path(const RobotMotion<double>& motion, const PathPoint& x, bool smooth) {
+  const auto missed = [](double by, const Vector6d& asked) {
+    return !(by <= kPathMissed * (1 + asked.lpNorm<Eigen::Infinity>()));
+  };
+  return missed(motion.twist_missed(), x.twist) ||
+         (smooth && missed(motion.acceleration_missed(), x.acceleration));
+}
+
 MotionEvaluator::MotionEvaluator(const Problem& problem, SchemeMaps maps)
     : problem_(problem),
       maps_(std::move(maps)),
@@ -77,7 +85,8 @@ void MotionEvaluator::evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& i
     instant.q = motion.q();
     instant.v = maps_.moves[i] * motion.v();
     instant.v_dot = maps_.moves[i] * motion.v_dot();
-    if (reason || leaves_path(static_cast<int>(i))) {
+    const bool leaves = maps_.moves[i] != 0 && leaves_path(motion, maps_.x[at], maps_.smooth());
+    if (reason || leaves) {
       lose(static_cast<int>(i), reason ? reason : kLeavesPath, instants);
     }
   }
@@ -95,19 +104,6 @@ void MotionEvaluator::evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& i
 void MotionEvaluator::read_tool(std::size_t i) {
   const ToolMotion<double> tool = tracker_.motion().tool_motion();
   maps_.x[i] = {tracker_.motion().tool_pose(), tool.twist, tool.acceleration};
-}
-
-/// Whether the twist at the current instant, or its derivative if the scheme has one, differs from
-/// that of the path.
-bool MotionEvaluator::leaves_path(int i) const {
-  const PathPoint& x = maps_.x[static_cast<std::size_t>(i)];
-  const RobotMotion<double>& motion = tracker_.motion();
-  const auto missed = [](double by, const Vector6d& asked) {
-    return !(by <= kPathMissed * (1 + asked.lpNorm<Eigen::Infinity>()));
-  };
-  return maps_.moves[i] != 0 &&
-         (missed(motion.twist_missed(), x.twist) ||
-          (maps_.smooth() && missed(motion.acceleration_missed(), x.acceleration)));
 }
 
 /// Marks all values from this instant on as unknown, except theta_r.

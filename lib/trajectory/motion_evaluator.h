@@ -21,6 +21,10 @@ struct MotionSlopes {
   Eigen::MatrixXd q_place;  ///< joints×r, of q by theta_r; empty without dependent joints
 };
 
+/// Whether the twist of a motion differs from that of the path, or, if the scheme is `smooth` and
+/// so defines accelerations, its derivative.
+bool leaves_path(const RobotMotion<double>& motion, const PathPoint& x, bool smooth);
+
 /// The motion of a robot at the instants of a scheme, from a table of knots, and its derivatives.
 /// `evaluate` and `linearize` allocate nothing after the first call.
 class MotionEvaluator {
@@ -59,7 +63,6 @@ class MotionEvaluator {
 
  private:
   void set_rows(const Eigen::MatrixXd& Q);
-  bool leaves_path(int i) const;
   void read_tool(std::size_t i);
   void add_payload(const Instant& instant, const PathPoint& x, MotionSlopes& slopes);
   void lose(int instant, const char* reason, std::vector<Instant>& instants);

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "lib/trajectory/instant_evaluator.h"
 #include "lib/trajectory/task_of.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/trajectory.h"
@@ -16,7 +17,7 @@ namespace {
 /// Knots and instants per interval of the coarser objective. Five knots or more are coarsened.
 constexpr int kCoarseKnots = 4, kCoarseInstants = 2;
 
-class ObjectiveOfTrajectories final : public TrajectoryObjective {
+class ObjectiveOfTrajectories final : public TrajectoryObjective, public InstantSource {
  public:
   ObjectiveOfTrajectories(const Problem& problem, Wrench wrench, TrajectorySolverMaker make,
                           bool check, TrajectoryValue counts,
@@ -84,6 +85,10 @@ class ObjectiveOfTrajectories final : public TrajectoryObjective {
     const Problem& task = *coarse;
     return std::make_unique<ObjectiveOfTrajectories>(
         task, wrench_, make_, check_, TrajectoryValue::kAtInstants, std::move(coarse));
+  }
+  std::unique_ptr<InstantEvaluator> make_instants(
+      const InstantEvaluator::SolverMaker& make) const override {
+    return std::make_unique<InstantEvaluator>(problem_, wrench_, make, check_);
   }
 
  private:

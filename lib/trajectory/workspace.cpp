@@ -8,9 +8,7 @@
 #include "lib/trajectory/limits.h"
 
 namespace maxwrench {
-namespace {
 
-/// The task in time. A static task holds its pose at one knot.
 MotionTask task_of(const Problem& problem) {
   if (problem.contact) {
     throw std::invalid_argument(problem.name +
@@ -37,8 +35,6 @@ MotionTask task_of(const Problem& problem) {
   task.scheme = Scheme::kForward;
   return task;
 }
-
-}  // namespace
 
 TrajectoryEvaluator::Workspace::Workspace(const Problem& p, Wrench w,
                                           const TrajectorySolverMaker& make, bool check)

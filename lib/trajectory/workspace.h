@@ -14,6 +14,11 @@
 
 namespace maxwrench {
 
+/// The task in time of a problem, without a second contact. A static task holds its pose at one
+/// knot.
+/// Throws std::invalid_argument as the constructor of `TrajectoryEvaluator`.
+MotionTask task_of(const Problem& problem);
+
 /// What a `TrajectoryEvaluator` keeps from call to call.
 struct TrajectoryEvaluator::Workspace {
   Workspace(const Problem& p, Wrench w, const TrajectorySolverMaker& make, bool check);

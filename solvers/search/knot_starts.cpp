@@ -15,6 +15,7 @@ namespace maxwrench {
 namespace {
 
 constexpr long kSamples = 192;      // without the start; at most a tenth of the budget
+constexpr long kEarlier = 8;        // points of an earlier search
 constexpr long kNearOf = 4;         // every fourth table is near the start
 constexpr double kFar = 0.8;        // rad or m, between starts of the same round
 constexpr double kSame = 0.1;       // rad or m: closer starts belong to one family
@@ -197,6 +198,13 @@ std::vector<Candidate> kick_knots(TrajectoryObjective& objective, const SearchOp
                         kKickReach[number / 2 % std::size(kKickReach)], number % 2 == 0);
   };
   return with_value(objective, options, count, table, run, found);
+}
+
+std::vector<Candidate> earlier_starts(const TrajectoryObjective& objective,
+                                      const SearchOptions& options, SearchRun& run, Part& found) {
+  const long count = std::min(static_cast<long>(options.starts.size()), kEarlier);
+  const auto table = [&](long i) { return options.starts[static_cast<std::size_t>(i)].theta_r; };
+  return with_value(objective, options, std::min(count, options.budget), table, run, found);
 }
 
 std::vector<Candidate> find_knot_starts(TrajectoryObjective& objective,

@@ -25,6 +25,11 @@ TrajectoryObjective& require_trajectories(Objective& objective, const char* sear
 std::vector<Candidate> draw_knot_starts(TrajectoryObjective& objective,
                                         const SearchOptions& options, SearchRun& run, Part& found);
 
+/// The best points of an earlier search that have a value at their instants, with that value, at
+/// most eight. Adds the evaluations to `found`.
+std::vector<Candidate> earlier_starts(const TrajectoryObjective& objective,
+                                      const SearchOptions& options, SearchRun& run, Part& found);
+
 /// The starts of the local searches of `slp`. For a task other than an impulse, each drawn table is
 /// first optimised with all knots moving alike (`SlpRun`). This costs little and reduces hundreds
 /// of tables to a few families. The results come first, then the drawn tables. Empty if no table

@@ -22,6 +22,8 @@ std::unique_ptr<Search> make_de();
 
 std::unique_ptr<Search> make_direct_l();
 
+std::unique_ptr<Search> make_dp();
+
 std::unique_ptr<Search> make_facet_nlp();
 
 std::unique_ptr<Search> make_facet_sqp();

@@ -75,9 +75,12 @@ class Slp : public Search {
     SearchRun run(options);
     SlpOutcome best;
     const auto left = [&] { return options.budget - best.found.trace.evaluations(); };
-    std::vector<Candidate> starts = find_coarse_starts(objective, options, run, best.found);
-    const std::size_t batch = starts.empty() ? kBatch : kRankedBatch;
-    if (starts.empty()) starts = find_knot_starts(objective, options, run, best.found);
+    std::vector<Candidate> starts = earlier_starts(objective, options, run, best.found);
+    std::vector<Candidate> own;
+    if (left() > 0) own = find_coarse_starts(objective, options, run, best.found);
+    const std::size_t batch = own.empty() ? kBatch : kRankedBatch;
+    if (own.empty() && left() > 0) own = find_knot_starts(objective, options, run, best.found);
+    starts.insert(starts.end(), own.begin(), own.end());
     if (!starts.empty() && left() >= SlpRun::kJudgement) {
       SlpRun slp_run(objective, *std::max_element(starts.begin(), starts.end(), is_less), run);
       best.trajectory = slp_run.best();

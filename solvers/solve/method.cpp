@@ -227,8 +227,12 @@ std::vector<std::string> supported_solvers(const Problem& problem, const std::st
 std::vector<std::string> supported_searches(const Problem& problem, const std::string& measure,
                                             Wrench wrench) {
   std::vector<std::string> names;
+  const bool transfer = problem.motion && problem.motion->transfer;
   const auto add = [&](std::span<const SearchEntry> table) {
-    for (const SearchEntry& search : table) names.emplace_back(search.name);
+    for (const SearchEntry& search : table) {
+      const bool by_instants = search.name == std::string("dp");  // a mass is one for all of them
+      if (!(transfer && by_instants)) names.emplace_back(search.name);
+    }
   };
   if (problem.motion) add(trajectory_searches());
   if (problem.motion && problem.motion->transfer) add(transfer_searches());

@@ -97,16 +97,17 @@ std::string rejection(const char* name) {
 
 TEST(Composition, RejectsWhatIsNoStage) {
   for (const char* name : {"", "+", "cmaes+", "+cmaes", "sample+nothing", "sample cmaes"}) {
-    EXPECT_NE(rejection(name).find("expected one of slp joint_nlp sample grid annealing"),
+    EXPECT_NE(rejection(name).find("expected one of slp dp joint_nlp sample grid annealing"),
               std::string::npos)
         << name << ": " << rejection(name);
   }
   for (const char* name : {"cmaes+grid", "sample+sample", "sample+cmaes+direct_l"}) {
-    EXPECT_NE(rejection(name).find("expected as a later stage one of annealing cmaes"),
+    EXPECT_NE(rejection(name).find("expected as a later stage one of slp annealing cmaes"),
               std::string::npos)
         << name << ": " << rejection(name);
   }
-  EXPECT_THROW(find_search("sample+slp"), std::invalid_argument);
+  EXPECT_THROW(find_search("sample+dp"), std::invalid_argument);
+  EXPECT_NO_THROW(find_search("dp+slp"));
   EXPECT_NO_THROW(find_search("slp+cmaes"));
 }
 
