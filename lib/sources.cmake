@@ -16,7 +16,8 @@ set(maxwrench_lib_sources
   search/capability.cpp search/facet_program.cpp search/scenario_rows.cpp
   tank/control_loop.cpp tank/controller.cpp tank/effort_tracking.cpp tank/motion_run.cpp tank/ode.cpp tank/options.cpp
   tank/reference.cpp tank/script.cpp tank/summary.cpp tank/tank.cpp
-  trajectory/carried.cpp trajectory/clearance.cpp trajectory/limits.cpp trajectory/motion_evaluator.cpp trajectory/motion_scenarios.cpp trajectory/objective.cpp trajectory/overshoot.cpp trajectory/path.cpp
-  trajectory/program.cpp trajectory/robot_motion.cpp trajectory/scheme.cpp trajectory/trajectory.cpp trajectory/workspace.cpp
-  trajectory/canonical_equations.cpp trajectory/instant_evaluator.cpp) trajectory/trajectory_program.cpp
-  trajectory/trajectory_residual.cpp trajectory/transfer_dynamics.cpp)
+  trajectory/canonical_equations.cpp trajectory/carried.cpp trajectory/clearance.cpp trajectory/instant_evaluator.cpp
+  trajectory/limits.cpp trajectory/motion_evaluator.cpp trajectory/motion_scenarios.cpp trajectory/objective.cpp
+  trajectory/overshoot.cpp trajectory/path.cpp trajectory/program.cpp trajectory/robot_motion.cpp trajectory/scheme.cpp
+  trajectory/trajectory.cpp trajectory/trajectory_program.cpp trajectory/trajectory_residual.cpp
+  trajectory/transfer_dynamics.cpp trajectory/workspace.cpp)

@@ -37,13 +37,12 @@ set(maxwrench_solvers_sources
   wrench_set/boundary.cpp wrench_set/directions.cpp wrench_set/ellipsoid.cpp wrench_set/frame.cpp wrench_set/polytope.cpp
   wrench_set/support.cpp
   margin/instant_scan.cpp margin/margin_text.cpp margin/motion_margin.cpp
-  search/dp.cpp search/dp_grid.cpp search/dp_level.cpp search/dp_motion.cpp) solve/scenario_values.cpp
-  solve/too_weak.cpp)
+  search/dp.cpp search/dp_grid.cpp search/dp_level.cpp search/dp_motion.cpp
+  solve/scenario_values.cpp solve/too_weak.cpp)
 if(MAXWRENCH_WITH_SUNDIALS)
   list(APPEND maxwrench_solvers_sources
     integrator/arkode.cpp integrator/cvode.cpp integrator/ida.cpp integrator/sundials.cpp
-    search/nullspace.cpp)
-  list(APPEND maxwrench_solvers_sources
+    search/nullspace.cpp
     pontryagin/climb.cpp pontryagin/extremal.cpp pontryagin/extremal_flow.cpp pontryagin/least_effort_motion.cpp
     search/pontryagin.cpp)
 endif()

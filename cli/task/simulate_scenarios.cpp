@@ -43,8 +43,8 @@ nlohmann::ordered_json to_object(const ScenarioExperiment& each) {
   return object;
 }
 
-void print_object(const Problem& problem, const SimulateOptions& options,
-                  const ScenarioExperiments& experiments) {
+void print_scenario_object(const Problem& problem, const SimulateOptions& options,
+                           const ScenarioExperiments& experiments) {
   auto all = nlohmann::ordered_json::array();
   for (const ScenarioExperiment& each : experiments.all) all.push_back(to_object(each));
   const ScenarioExperiment& worst = experiments.worst();
@@ -72,8 +72,8 @@ std::string words_of_reading(const ScenarioExperiment& each) {
                      each.scenario.task.unit(), s.low, s.high);
 }
 
-void print_text(const Problem& problem, const SimulateOptions& options,
-                const ScenarioExperiments& experiments) {
+void print_scenario_text(const Problem& problem, const SimulateOptions& options,
+                         const ScenarioExperiments& experiments) {
   fmt::print("{}  virtual tank  integrator {}\n", problem.name, options.integrator);
   if (std::isfinite(experiments.planned)) {
     fmt::print("planned     {:.5f} {}\n", experiments.planned, problem.unit());
@@ -135,7 +135,7 @@ std::string figure_of(const Problem& problem, const ScenarioExperiments& experim
 int report_experiments(const Problem& problem, const SimulateOptions& options,
                        const ScenarioExperiments& experiments) {
   if (!options.out.empty()) write_file(options.out, table_of(experiments));
-  (options.json ? print_object : print_text)(problem, options, experiments);
+  (options.json ? print_scenario_object : print_scenario_text)(problem, options, experiments);
   // Comes last: it rejects an experiment without samples, but the answer is valid even then.
   if (!options.figure.empty()) write_file(options.figure, figure_of(problem, experiments));
   return experiments.status == Status::kReached ? kAnswered : kOtherStatus;
