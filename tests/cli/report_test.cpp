@@ -116,7 +116,7 @@ std::vector<std::vector<std::string>> contents(const fs::path& file,
 
 /// The tables that stand beside our results, which the paper reads, are of these results; times,
 /// which `reproduce` measures again for its own rows, are not compared.
-TEST(Report, TablesOfOurResultsAreOfThem) {
+TEST(Report, SLOW_TablesOfOurResultsAreOfThem) {
   const fs::path results = fs::path(MAXWRENCH_SOURCE_DIR) / "results";
   const TemporaryFolder folder;
   ASSERT_EQ(run_maxwrench("report " + results.string() + " --out new", folder.path()).exit_status,

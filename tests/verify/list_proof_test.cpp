@@ -41,6 +41,7 @@ TEST(ListProof, IsVerified) {
     const ProofCertificate read = read_certificate(file.string());
     EXPECT_EQ(certificate_text(read), proof.certificate) << form.name;
     for (const int threads : {1, 3}) {
+      if (kSanitized && threads == 1) continue;
       const Verification result = verify(task, read, threads);
       EXPECT_EQ(result.rejection, "") << form.name;
       EXPECT_EQ(result.boxes, static_cast<long>(read.tree.nodes.size()));

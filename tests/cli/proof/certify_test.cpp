@@ -31,7 +31,7 @@ TEST(CertifyCommand, Proves) {
   EXPECT_NEAR(proof["beta"], best["beta"], 1e-6);
 }
 
-TEST(CertifyCommand, ProvesWhereJointsFollow) {
+TEST(CertifyCommand, SLOW_ProvesWhereJointsFollow) {
   for (const char* name : {"mobile/push", "dual_arm/bar_wall"}) {
     const CommandResult result = run_maxwrench(std::string("certify --json ") + name);
     EXPECT_EQ(result.exit_status, 0) << result.err;
