@@ -43,7 +43,8 @@ def test_a_thruster_that_dies(command):
 
 def test_each_scenario_is_carried_out(rejects):
     task = mw.load("uvms/lift")
-    both = mw.Static(task.robot, pose=task.pose, set=[[0, 0, 2, 0, 0, 0], [0, 0, -2, 0, 0, 0]])
+    where = dict(pose=task.pose, theta_r=task.theta_r_names, theta_r_default=task.theta_r_default)
+    both = mw.Static(task.robot, set=[[0, 0, 2, 0, 0, 0], [0, 0, -2, 0, 0, 0]], **where)
     answer = mw.evaluate(both, both.theta_r_default)
     runs = mw.simulate_scenarios(answer, hold=1)
     assert list(runs) == ["wrench 1", "wrench 2"] and all(run.held for run in runs.values())

@@ -33,7 +33,7 @@ TankRun lift_with_a_death(double planned, double t, double noticed_after = 0) {
 }
 
 /// By an independent model the lift's default posture holds 14.55665 N whichever thruster is dead,
-/// and 30.2 N with all of them: what survives is held, what does not is lost.
+/// and 29.92061 N with all of them: what survives is held, what does not is lost.
 TEST(TankDeath, WhatSurvivesTheLossIsHeld) {
   const TankRun survives = lift_with_a_death(14.5, 7);
   EXPECT_EQ(survives.status, Status::kReached) << survives.reason.c_str();
