@@ -25,7 +25,7 @@ struct MapSettings {
   Case choice;
 };
 
-MapSettings read_settings(const fs::path& file) {
+MapSettings read_map_settings(const fs::path& file) {
   MapSettings settings;
   try {
     const nlohmann::json object = nlohmann::json::parse(text_of(file));
@@ -48,7 +48,7 @@ MapSettings read_settings(const fs::path& file) {
   return settings;
 }
 
-std::string name_of(const MapCell& cell) {
+std::string name_of_cell(const MapCell& cell) {
   return fmt::format("cell {}", fmt::join(cell.index, ","));
 }
 
@@ -56,11 +56,12 @@ std::string name_of(const MapCell& cell) {
 
 MapCheck check_map(const fs::path& folder, const std::function<Problem(const std::string&)>& load,
                    std::size_t sample, std::uint64_t seed, int threads) {
-  const MapSettings settings = read_settings(folder / kMapSettings);
+  const MapSettings settings = read_map_settings(folder / kMapSettings);
   const Problem task = load(settings.problem);
   if (task.digest != settings.digest) {
-    throw std::invalid_argument(fmt::format("{}: got a map of another {}, expected one of this task",
-                                            (folder / kMapSettings).string(), settings.problem));
+    throw std::invalid_argument(
+        fmt::format("{}: got a map of another {}, expected one of this task",
+                    (folder / kMapSettings).string(), settings.problem));
   }
   check_plan(task, settings.plan);
   const MapRows rows(task, settings.plan, settings.choice);
@@ -81,7 +82,7 @@ MapCheck check_map(const fs::path& folder, const std::function<Problem(const std
   for (std::size_t i = 0; i < drawn.size(); ++i) {
     const MapCell& cell = cells[drawn[i]];
     check.values += cell.status == Status::kBestFound;
-    if (!faults[i].empty()) check.rejected.push_back(name_of(cell) + ": " + faults[i]);
+    if (!faults[i].empty()) check.rejected.push_back(name_of_cell(cell) + ": " + faults[i]);
   }
   return check;
 }

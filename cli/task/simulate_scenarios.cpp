@@ -17,9 +17,9 @@ namespace maxwrench {
 namespace {
 
 /// The most curves of the figure of a static task.
-constexpr std::size_t kMostCurves = 6;
+constexpr std::size_t kMostExperimentCurves = 6;
 
-nlohmann::ordered_json to_object(const ScenarioExperiment& each) {
+nlohmann::ordered_json experiment_object(const ScenarioExperiment& each) {
   const TankRun& run = each.experiment.run;
   const TankSummary& s = run.summary;
   const bool ran = !run.samples.empty();
@@ -43,10 +43,10 @@ nlohmann::ordered_json to_object(const ScenarioExperiment& each) {
   return object;
 }
 
-void print_scenario_object(const Problem& problem, const SimulateOptions& options,
-                           const ScenarioExperiments& experiments) {
+void print_experiments_object(const Problem& problem, const SimulateOptions& options,
+                              const ScenarioExperiments& experiments) {
   auto all = nlohmann::ordered_json::array();
-  for (const ScenarioExperiment& each : experiments.all) all.push_back(to_object(each));
+  for (const ScenarioExperiment& each : experiments.all) all.push_back(experiment_object(each));
   const ScenarioExperiment& worst = experiments.worst();
   nlohmann::ordered_json object = {
       {"problem", problem.name},
@@ -65,15 +65,15 @@ void print_scenario_object(const Problem& problem, const SimulateOptions& option
 }
 
 /// "8.95532, between 8.95424 and 9.00255", in the unit of the scenario.
-std::string words_of_reading(const ScenarioExperiment& each) {
+std::string words_of_experiment(const ScenarioExperiment& each) {
   const TankSummary& s = each.experiment.run.summary;
   if (each.experiment.run.samples.empty() || !std::isfinite(s.mean)) return "none";
   return fmt::format("{:.5f} of {:.5f} {}, between {:.5f} and {:.5f}", reading_of(s), s.planned,
                      each.scenario.task.unit(), s.low, s.high);
 }
 
-void print_scenario_text(const Problem& problem, const SimulateOptions& options,
-                         const ScenarioExperiments& experiments) {
+void print_experiments_text(const Problem& problem, const SimulateOptions& options,
+                            const ScenarioExperiments& experiments) {
   fmt::print("{}  virtual tank  integrator {}\n", problem.name, options.integrator);
   if (std::isfinite(experiments.planned)) {
     fmt::print("planned     {:.5f} {}\n", experiments.planned, problem.unit());
@@ -84,7 +84,7 @@ void print_scenario_text(const Problem& problem, const SimulateOptions& options,
     const TankSummary& s = each.experiment.run.summary;
     held += s.held;
     fmt::print("{}  {}: {}{}{}\n", s.held ? "held      " : "not held  ", each.scenario.name,
-               words_of_reading(each), s.missed.empty() ? "" : "; ", s.missed);
+               words_of_experiment(each), s.missed.empty() ? "" : "; ", s.missed);
     if (s.after) print_after(*s.after);
   }
   const ScenarioExperiment& worst = experiments.worst();
@@ -100,7 +100,7 @@ void print_scenario_text(const Problem& problem, const SimulateOptions& options,
 }
 
 /// The tables of all experiments below each other, behind a column with the scenario's name.
-std::string table_of(const ScenarioExperiments& experiments) {
+std::string experiments_table(const ScenarioExperiments& experiments) {
   std::string text;
   for (const ScenarioExperiment& each : experiments.all) {
     const std::string table = tank_csv(each.scenario.task, each.experiment.run);
@@ -119,12 +119,12 @@ std::string table_of(const ScenarioExperiments& experiments) {
 }
 
 /// The worst ones of a static task, the worst one of a task in time.
-std::string figure_of(const Problem& problem, const ScenarioExperiments& experiments) {
+std::string experiments_figure(const Problem& problem, const ScenarioExperiments& experiments) {
   const ScenarioExperiment& worst = experiments.worst();
   std::vector<TankCurve> curves = {{worst.scenario.name, &worst.experiment.run}};
   if (problem.motion) return motion_figure(worst.scenario.task, curves);
   for (const ScenarioExperiment& each : experiments.all) {
-    if (&each == &worst || curves.size() == kMostCurves) continue;
+    if (&each == &worst || curves.size() == kMostExperimentCurves) continue;
     curves.push_back({each.scenario.name, &each.experiment.run});
   }
   return tank_figure(worst.scenario.task, curves);
@@ -134,10 +134,10 @@ std::string figure_of(const Problem& problem, const ScenarioExperiments& experim
 
 int report_experiments(const Problem& problem, const SimulateOptions& options,
                        const ScenarioExperiments& experiments) {
-  if (!options.out.empty()) write_file(options.out, table_of(experiments));
-  (options.json ? print_scenario_object : print_scenario_text)(problem, options, experiments);
+  if (!options.out.empty()) write_file(options.out, experiments_table(experiments));
+  (options.json ? print_experiments_object : print_experiments_text)(problem, options, experiments);
   // Comes last: it rejects an experiment without samples, but the answer is valid even then.
-  if (!options.figure.empty()) write_file(options.figure, figure_of(problem, experiments));
+  if (!options.figure.empty()) write_file(options.figure, experiments_figure(problem, experiments));
   return experiments.status == Status::kReached ? kAnswered : kOtherStatus;
 }
 

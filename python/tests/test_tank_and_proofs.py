@@ -31,6 +31,31 @@ def test_weak_thrusters_do_not_hold():
     assert not run.held and run.missed
 
 
+def test_a_thruster_that_dies(command):
+    task = mw.load("uvms/lift")
+    answer = mw.evaluate(task, task.theta_r_default)
+    run = mw.simulate(answer, planned=14.5, dies={"front_left_vertical": 5.5})
+    words = "simulate uvms/lift --planned 14.5 --dies front_left_vertical=5.5 --json".split()
+    theirs = json.loads(command(*words).stdout)
+    assert run.held is theirs["held"] is True and run.reading == theirs["mean"]
+    assert not mw.simulate(answer, planned=20, dies={"front_left_vertical": 5.5}).held
+
+
+def test_each_scenario_is_carried_out(rejects):
+    task = mw.load("uvms/lift")
+    where = dict(pose=task.pose, theta_r=task.theta_r_names, theta_r_default=task.theta_r_default)
+    both = mw.Static(task.robot, set=[[0, 0, 2, 0, 0, 0], [0, 0, -2, 0, 0, 0]], **where)
+    answer = mw.evaluate(both, both.theta_r_default)
+    runs = mw.simulate_scenarios(answer, hold=1)
+    assert list(runs) == ["wrench 1", "wrench 2"] and all(run.held for run in runs.values())
+    assert runs["wrench 2"].reading == pytest.approx(2 * answer.beta, rel=0.02)
+    assert rejects(mw.simulate, answer).key == "answer"
+    alone = mw.evaluate(task, task.theta_r_default)
+    assert rejects(mw.simulate_scenarios, alone).key == "answer"
+    assert rejects(mw.simulate, alone, dies=["front_left_vertical"]).key == "dies"
+    rejects(mw.simulate, alone, dies={"rudder": 1})
+
+
 def test_bad_experiments(rejects):
     answer = mw.evaluate("planar/force", [0, 0])
     assert rejects(mw.simulate, answer, "arkode").key == "integrator"

@@ -29,7 +29,7 @@ bool has_brake(const Problem& problem, const ScenarioLimits& limits) {
 }
 
 /// The scenarios that the tank carries out. Where actuators die, all of them work at first.
-std::vector<int> tank_scenarios(const Problem& problem, const TankOptions& options) {
+std::vector<int> tank_choices(const Problem& problem, const TankOptions& options) {
   std::vector<int> chosen;
   const int limits = static_cast<int>(problem.scenarios.limits.size());
   for (int i = 0; i < scenario_count(problem); ++i) {
@@ -39,7 +39,7 @@ std::vector<int> tank_scenarios(const Problem& problem, const TankOptions& optio
 }
 
 /// The largest wrench of the list for a factor of 1.
-double longest(const ScenarioList& list) {
+double longest_wrench(const ScenarioList& list) {
   double most = 0;
   for (const ScenarioWrench& each : list.wrenches) most = std::max(most, each.c.norm());
   return most;
@@ -51,15 +51,16 @@ Capability alone_at(const Posture& posture, const ScenarioTask& one, Wrench wren
   set_posture(posture, program);
   Capability capability;
   find_wrench_solver("simplex").make()->solve(program, true, capability);
+  if (capability.status == Status::kOptimal) capability.h = program.W * capability.w;
   return capability;
 }
 
 /// The experiment at the posture of the list, in whose scenarios the wrenches grow together.
-TankRun hold(const Answer& list, const ScenarioTask& one, double factor,
-             const std::string& integrator, const TankOptions& options) {
+TankRun hold_scenario(const Answer& list, const ScenarioTask& one, double factor,
+                      const std::string& integrator, const TankOptions& options) {
   const Wrench wrench = list.choice.wrench;
   TargetWrench target{Vector6d::Zero(), Eigen::VectorXd::Zero(one.task.robot.actuators()), wrench,
-                      factor * longest(list.task->scenarios)};
+                      factor * longest_wrench(list.task->scenarios)};
   if (one.length > 0) {
     const Capability most = alone_at(list.posture, one, wrench);
     if (most.status != Status::kOptimal) {
@@ -73,7 +74,7 @@ TankRun hold(const Answer& list, const ScenarioTask& one, double factor,
   return run_tank(one.task, list.posture, target, *find_integrator(integrator).make(), options);
 }
 
-bool interrupted(const TankRun& run, const TankOptions& options) {
+bool tank_interrupted(const TankRun& run, const TankOptions& options) {
   return run.status == Status::kBudgetExhausted && options.interrupted && options.interrupted();
 }
 
@@ -84,12 +85,12 @@ ScenarioExperiments each_scenario(const Problem& problem, double planned,
   ScenarioExperiments experiments;
   experiments.planned = planned;
   experiments.conclude(Status::kReached);
-  for (const int i : tank_scenarios(problem, options)) {
+  for (const int i : tank_choices(problem, options)) {
     ScenarioExperiment each{scenario_alone(problem, i), {}};
     each.experiment = carry_out(each.scenario);
     const TankRun& run = each.experiment.run;
     if (run.status != Status::kReached) experiments.conclude(run.status, run.reason.c_str());
-    const bool stop = interrupted(run, options);
+    const bool stop = tank_interrupted(run, options);
     experiments.all.push_back(std::move(each));
     if (stop) break;
   }
@@ -150,7 +151,7 @@ ScenarioExperiments simulate_scenarios(const Answer& answer, double factor,
   require_tank_scenarios(problem);
   const double planned = factor > 0 ? factor : answer.capability.beta;
   return each_scenario(problem, planned, options, [&](const ScenarioTask& one) {
-    return TrajectoryExperiment{{}, hold(answer, one, planned, integrator, options)};
+    return TrajectoryExperiment{{}, hold_scenario(answer, one, planned, integrator, options)};
   });
 }
 

@@ -60,10 +60,38 @@ TEST(ScenariosCommand, EvalSaysWhatDecidesInTime) {
           .out);
   const json shipped = json::parse(run_maxwrench("eval uvms/valve_trajectory --json").out);
   EXPECT_EQ(alone["beta"], shipped["beta"]);
-  for (const std::string command : {"simulate", "certify"}) {
-    const CommandResult refused =
-        run_maxwrench(command + " examples/tasks/turn_along_with_a_dead_thruster.toml");
-    EXPECT_EQ(refused.exit_status, 2) << command << refused.out;
+}
+
+/// The tank carries out each scenario, and a proof has a part for each.
+TEST(ScenariosCommand, SimulatesAndProvesEachScenarioInTime) {
+  const TemporaryFolder folder;
+  const std::string task = " examples/tasks/turn_along_with_a_dead_thruster.toml ";
+  const CommandResult ran = run_maxwrench("simulate" + task + "--json");
+  EXPECT_EQ(ran.exit_status, 0) << ran.err;
+  const json object = json::parse(ran.out);
+  EXPECT_EQ(object["held"], true);
+  ASSERT_EQ(object["scenarios"].size(), 3u);
+  double least = 1e9;
+  for (const json& each : object["scenarios"]) least = std::min<double>(least, each["factor"]);
+  EXPECT_EQ(object["reading"], least);
+  const std::string proof = (folder.path() / "turn.proof").string();
+  const CommandResult proven = run_maxwrench("certify" + task + "--certificate " + proof);
+  EXPECT_EQ(proven.exit_status, 0) << proven.err;
+  EXPECT_THAT(proven.out, HasSubstr("of 3 scenarios"));
+  const json checked = json::parse(run_maxwrench("verify " + proof + " --json").out);
+  EXPECT_EQ(checked["status"], "verified") << checked;
+  EXPECT_NEAR(checked["guaranteed"], 12.0718, 0.001);
+}
+
+/// Each is rejected in one line that names the option.
+TEST(ScenariosCommand, RejectsWhatCannotDie) {
+  for (const std::string words :
+       {"--dies rudder=1", "--dies front_left_vertical", "--dies front_left_vertical=nan",
+        "--dies front_left_vertical=-1",
+        "--dies front_left_vertical=", "--dies front_left_vertical=99", "--noticed-after 1",
+        "--dies front_left_vertical=1 --noticed-after nan"}) {
+    const CommandResult refused = run_maxwrench("simulate uvms/lift " + words);
+    EXPECT_EQ(refused.exit_status, 2) << words << refused.out;
     EXPECT_EQ(std::count(refused.err.begin(), refused.err.end(), '\n'), 1) << refused.err;
   }
 }
