@@ -126,8 +126,9 @@ bool TankOde::residual(double t, const Eigen::VectorXd& y, const Eigen::VectorXd
 
 /// A small change of the configuration moves the end effector by J dx, where dx are the velocities
 /// that would make that change in unit time.
-bool TankOde::residual_jacobian(double t, const Eigen::VectorXd& y, const Eigen::VectorXd& /*y_dot*/,
-                                double alpha, Eigen::MatrixXd& dF) {
+bool TankOde::residual_jacobian(double t, const Eigen::VectorXd& y,
+                                const Eigen::VectorXd& /*y_dot*/, double alpha,
+                                Eigen::MatrixXd& dF) {
   const Stopwatch watch(seconds_);
   ++evaluations_;
   prepare(t, y, rates_);
