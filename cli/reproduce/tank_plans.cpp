@@ -106,7 +106,7 @@ std::vector<TankPlan> plans_of(const char* name, const std::filesystem::path& fo
 
 PaperTable reproduce_tank(const std::filesystem::path& folder, int threads, long budget) {
   std::string text = fmt::format(
-      "What each trajectory is worth when the virtual tank executes it (docs/tank.md), N m.\n"
+      "What each trajectory is worth when the virtual tank executes it (docs/tank.md).\n"
       "lag: time constant of the thrusters that the trajectory allows for, s; none: none.\n"
       "feedforward: lead: as always; inverse: efforts that the thrusters reach (--invert-lag).\n"
       "value: at the instants; between: between knots; proven: at every instant, without regard\n"
@@ -116,9 +116,9 @@ PaperTable reproduce_tank(const std::filesystem::path& folder, int threads, long
       100 * TankOptions().margin, kTrackedConfigurationError);
   for (const char* name : {"uvms/valve_trajectory", "uvms/valve_impulse", "uvms/lift_impulse"}) {
     text += fmt::format(
-        "\n{}\nscheme    found_by   lag   feedfwd     value  between   proven  reading    share  "
+        "\n{}: {}\nscheme    found_by   lag   feedfwd     value  between   proven  reading    share  "
         "error  held\n",
-        name);
+        name, load_problem(name).unit());
     for (const TankPlan& plan : plans_of(name, folder, threads, budget)) {
       const double proven = proven_value(plan, threads);
       for (const bool inverse : {false, true}) text += plan_line(plan, proven, inverse);

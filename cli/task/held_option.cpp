@@ -19,8 +19,7 @@ void HeldOption::add(CLI::App& app) {
                  "the virtual tank holds")
       ->capture_default_str()
       ->check(CLI::IsMember({"plan", "tank"}));
-  app.add_option("--simulations", how.simulations,
-                 "largest number of experiments of --worth tank")
+  app.add_option("--simulations", how.simulations, "largest number of experiments of --worth tank")
       ->capture_default_str()
       ->check(CLI::Range(1L, kMostSimulations))
       ->needs("--worth");

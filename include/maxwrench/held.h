@@ -40,13 +40,14 @@ struct HeldTrajectory : Verdict {
 /// Searches for the trajectory of a task in time with the largest reading that the virtual tank
 /// holds.
 ///
-/// It is a search of two levels. The upper one moves the knots and the planned wrench, the lower one
-/// finds efforts for them and runs the experiment:
+/// It is a search of two levels. The upper one moves the knots and the planned wrench, the lower
+/// one finds efforts for them and runs the experiment:
 ///
 ///     max reading(knots, share)   subject to   the experiment is held (`TankSummary::held`).
 ///
 /// The first trajectories are those that `solve` finds with and without the lag of the tank's
-/// thrusters. Knots move in the null space of the equations on them, which the scheme may have.
+/// thrusters. Of the better one the planned wrench rises while the reading does; then CMA-ES moves
+/// all knots, in the null space of the equations that the scheme may have, and the planned wrench.
 ///
 /// @param task     a task in time with one wrench along c
 /// @param options  wrench, solver, search and budget of the first trajectories, seed and callbacks

@@ -301,7 +301,8 @@ struct ScriptOptions {
 };
 /// Checks the options of a script.
 ///
-/// @throws std::invalid_argument unless `planned` and `thruster_lag` are finite and not negative, and
+/// @throws std::invalid_argument unless `planned` and `thruster_lag` are finite and not negative,
+/// and
 ///         0 <= margin < 1.
 void check(const ScriptOptions& options);
 

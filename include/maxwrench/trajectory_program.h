@@ -119,7 +119,7 @@ struct TrajectorySolution : Verdict {
   /// is less than sum_i lambda_i'tau_d,i minus the contribution of the limits of rates, commands
   /// and rows.
   Eigen::MatrixXd lambda,
-      mu,     ///< multipliers of the rates (m×(N-1)): positive where u_i+1 - u_i is at its upper limit
+      mu,  ///< multipliers of the rates (m×(N-1)): positive where u_i+1 - u_i is at its upper limit
       kappa;  ///< multipliers of the commands (m×(N-1)), likewise; empty: the program has no lag
   /// Multipliers of t <= c_w,i'w_i (N). Their sum is one. With a peak they are the unit vector of
   /// the peak. With `common` they have any sign, and in a proof their sum is zero.
@@ -170,10 +170,10 @@ void read(const TrajectoryProgram& program, const LpSolution& answer, Trajectory
 
 /// Computes the residual of a solution from the data of the program.
 ///
-/// Balance: max |B u_i - (J'W)_i w_i + s_i + G_i y - tau_d,i|. Bounds: of u, w, y, rates, commands, R y
-/// and of t <= c_w,i'w_i or t = c_w,i'w_i. Dual: in what has no limits, |lambda| in excess of rho, and
-/// |1 - sum pi|.
-/// Gap: dual objective less (value - price). A number that cannot be computed is infinite.
+/// Balance: max |B u_i - (J'W)_i w_i + s_i + G_i y - tau_d,i|. Bounds: of u, w, y, rates, commands,
+/// R y and of t <= c_w,i'w_i or t = c_w,i'w_i. Dual: in what has no limits, |lambda| in excess of
+/// rho, and |1 - sum pi|. Gap: dual objective less (value - price). A number that cannot be
+/// computed is infinite.
 ///
 /// @param program   the program
 /// @param solution  its solution

@@ -32,9 +32,7 @@ class Layout {
   bool limited(int j, int i) const {
     return i >= 0 && i + 1 < program_.size() && program_.du_max(j, i) < kInfinity;
   }
-  bool lags(int j, int i) const {
-    return i >= 0 && i + 1 < program_.size() && program_.lags(j, i);
-  }
+  bool lags(int j, int i) const { return i >= 0 && i + 1 < program_.size() && program_.lags(j, i); }
   int columns(int i) const {
     return m_ + program_.instants[i].columns() + (elastic(i) ? 2 * n_ : 0);
   }

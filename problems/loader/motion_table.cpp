@@ -71,7 +71,7 @@ void read_scheme(const Block& block, MotionTask& motion) {
       block.whole("instants_per_interval", 1, kMostInstants, motion.impulse ? 16 : 4);
 }
 
-void read_efforts(const Block& block, MotionTask& motion) {
+void read_effort_limits(const Block& block, MotionTask& motion) {
   motion.rates = block.truth("rates", true);
   motion.thruster_lag = block.number("thruster_lag", 0);
 }
@@ -99,7 +99,7 @@ void read_transfer(const Block& task, const Block& block, TaskSpec& spec) {
   MotionTask& motion = *spec.motion;
   block.allow_only({"T", "k", "instants_per_interval", "rates", "thruster_lag"});
   read_scheme(block, motion);
-  read_efforts(block, motion);
+  read_effort_limits(block, motion);
   motion.T = block.number("T");
   require_duration(motion.T);
   for (const char* key : {"from", "to", "payload"}) {
@@ -125,12 +125,12 @@ void read_motion(const Block& task, TaskSpec& spec) {
   motion.transfer = type == "transfer";
   const Block block = task.table("motion");
   if (motion.transfer) return read_transfer(task, block, spec);
-  std::vector<std::string_view> keys = {"T", "k", "scheme", "instants_per_interval",
+  std::vector<std::string_view> keys = {"T",     "k",           "scheme", "instants_per_interval",
                                         "rates", "thruster_lag"};
   if (motion.impulse) keys.emplace_back("t_h");
   block.allow_only(keys);
   read_scheme(block, motion);
-  read_efforts(block, motion);
+  read_effort_limits(block, motion);
   if (follows_poses(task)) return read_table(task, spec);
   motion.T = block.number("T");
   require_duration(motion.T);

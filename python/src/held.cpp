@@ -12,9 +12,9 @@ namespace maxwrench::python {
 namespace {
 
 py::object solve_task_held(const py::object& task, long simulations, const std::string& wrench,
-                           const std::string& solver, const std::string& search,
-                           std::uint64_t seed, long budget, int threads,
-                           const std::string& integrator, const py::object& callback) {
+                           const std::string& solver, const std::string& search, std::uint64_t seed,
+                           long budget, int threads, const std::string& integrator,
+                           const py::object& callback) {
   const PyTask of = task_of(task);
   Options options;
   options.wrench = parse_wrench(wrench);

@@ -33,7 +33,8 @@ void explain_instants(const Answer& answer, Explanation& explanation) {
   const TrajectorySolution& solution = answer.trajectory.solution;
   const Eigen::Index blocks = solution.lambda.cols();
   Eigen::MatrixXd prices(robot.actuators(), blocks);
-  for (Eigen::Index i = 0; i < blocks; ++i) prices.col(i) = effort_prices(robot, answer.program, solution, i);
+  for (Eigen::Index i = 0; i < blocks; ++i)
+    prices.col(i) = effort_prices(robot, answer.program, solution, i);
   const double least = kLeastPrice * prices.cwiseAbs().maxCoeff();
   for (Eigen::Index i = 0; i < blocks; ++i) {
     InstantLimits at{instant_of_block(answer, i).t, {}, scenario_of_block(answer, i)};

@@ -50,7 +50,7 @@ class JointProgram {
 
   TrajectoryEvaluator& trajectories_;
   int p_, r_, m_, n_, N_;
-  std::vector<int> first_;  ///< of u_i
+  std::vector<int> first_;                           ///< of u_i
   std::vector<std::pair<int, int>> rated_, lagged_;  ///< (instant, effort) of rates and commands
   Eigen::VectorXd start_, lower_, upper_, row_min_, row_max_, objective_, rows_;
   std::vector<Eigen::VectorXd> w_;

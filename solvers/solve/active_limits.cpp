@@ -131,7 +131,8 @@ std::string dearest_efforts(const Answer& answer) {
   for (Eigen::Index j = 0; j < set.u_min.size(); ++j)
     limits.push_back({0, actuator_name(robot, j)});
   for (Eigen::Index i = 0; i < answer.trajectory.solution.lambda.cols(); ++i) {
-    const Eigen::VectorXd prices = effort_prices(robot, answer.program, answer.trajectory.solution, i);
+    const Eigen::VectorXd prices =
+        effort_prices(robot, answer.program, answer.trajectory.solution, i);
     for (Eigen::Index j = 0; j < prices.size(); ++j) {
       if (std::abs(prices[j]) < 1e-9) continue;  // it may have no limits
       limits[static_cast<std::size_t>(j)].worth +=

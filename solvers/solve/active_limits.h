@@ -16,8 +16,7 @@ struct TrajectorySolution;
 /// The value gained per unit by raising the limits of each effort at block i of a trajectory's
 /// program (positive: the upper limit; negative: the lower one), m numbers.
 Eigen::VectorXd effort_prices(const Robot& robot, const TrajectoryProgram& program,
-                              const TrajectorySolution& solution,
-                              Eigen::Index i);
+                              const TrajectorySolution& solution, Eigen::Index i);
 
 /// The instant of block i of a trajectory's program, and the scenario of the block; "" without a
 /// list.

@@ -20,13 +20,15 @@ namespace maxwrench {
 namespace {
 
 /// Knots move by at most this from the first trajectory, in each direction [rad, m].
-constexpr double kReach = 0.2;
+constexpr double kMostMove = 0.05;
 /// Limits of the share of the value that is planned.
 constexpr double kLeastShare = 0.8, kMostShare = 1.05;
 /// Shares of the value with which a first trajectory is tried, until one is held.
 constexpr std::array kFirstShares = {1.0, 0.99, 0.97, 0.94, 0.9, 0.85};
+/// The first and the last step by which the share of the best first trajectory rises.
+constexpr double kFirstRise = 0.01, kLastRise = 0.001;
 /// Two limits of a row that are nearer than this are an equation.
-constexpr double kEquation = 1e-12;
+constexpr double kWidthOfEquation = 1e-12;
 /// The search of the upper level.
 constexpr const char* kUpperSearch = "cmaes";
 
@@ -70,7 +72,7 @@ Eigen::MatrixXd free_moves(const KnotRows& rows, Eigen::Index size) {
   const Eigen::MatrixXd all(rows.R);
   std::vector<Eigen::Index> equations;
   for (Eigen::Index r = 0; r < all.rows(); ++r) {
-    if (rows.r_max[r] - rows.r_min[r] <= kEquation) equations.push_back(r);
+    if (rows.r_max[r] - rows.r_min[r] <= kWidthOfEquation) equations.push_back(r);
   }
   if (equations.empty()) return Eigen::MatrixXd::Identity(size, size);
   const Eigen::MatrixXd E = all(equations, Eigen::all);
@@ -86,8 +88,8 @@ class HeldObjective final : public Objective {
                    experimenter.method.trajectory_solver->make),
         first_(std::move(first)),
         Z_(free_moves(evaluator_.rows(), first_.size())) {
-    lower_.setConstant(Z_.cols() + 1, -kReach);
-    upper_.setConstant(Z_.cols() + 1, kReach);
+    lower_.setConstant(Z_.cols() + 1, -kMostMove);
+    upper_.setConstant(Z_.cols() + 1, kMostMove);
     lower_.tail<1>().setConstant(kLeastShare);
     upper_.tail<1>().setConstant(kMostShare);
   }
@@ -177,18 +179,17 @@ class HeldSearch {
       if (planned == &plain_ && plain_.motion->thruster_lag == task_.motion->thruster_lag) break;
       const Answer plan = solve(*planned, options_);
       if (!plan.has_posture()) continue;
-      const First first =
-          try_shares(experimenter, evaluator, stacked(plan.trajectory.knots), held);
+      const First first = try_shares(experimenter, evaluator, stacked(plan.trajectory.knots), held);
       if (best.knots.size() == 0 || first.reading > best.reading) best = first;
     }
     if (best.reading > -kInfinity) {
       held.first = best.reading;
+      raise_share(experimenter, evaluator, best, held);
       improve(experimenter, best, held);
       report(experimenter, evaluator, best, held);
     }
     if (interrupted()) held.conclude(Status::kBudgetExhausted, "interrupted");
-    held.seconds =
-        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    held.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return held;
   }
 
@@ -201,13 +202,31 @@ class HeldSearch {
     for (const double share : kFirstShares) {
       if (held.simulations == how_.simulations || interrupted()) break;
       ++held.simulations;
-      const TankRun run =
-          experimenter.run(evaluator, unstacked(knots, evaluator.knots()), share);
+      const TankRun run = experimenter.run(evaluator, unstacked(knots, evaluator.knots()), share);
       first.share = share;
       first.reading = held_reading(run);
       if (first.reading > -kInfinity) break;
     }
     return first;
+  }
+
+  /// Raises the planned wrench of the same knots while the reading grows.
+  void raise_share(const Experimenter& experimenter, TrajectoryEvaluator& evaluator, First& best,
+                   HeldTrajectory& held) const {
+    const Eigen::MatrixXd knots = unstacked(best.knots, evaluator.knots());
+    for (double rise = kFirstRise; rise >= kLastRise;) {
+      const double share = best.share + rise;
+      if (held.simulations == how_.simulations || interrupted()) return;
+      ++held.simulations;
+      const double reading =
+          share > kMostShare ? -kInfinity : held_reading(experimenter.run(evaluator, knots, share));
+      if (reading > best.reading) {
+        best.share = share;
+        best.reading = reading;
+      } else {
+        rise /= 2;
+      }
+    }
   }
 
   /// The upper level; replaces `best` if it finds a larger reading.

@@ -268,8 +268,8 @@ bool Forms::keeps_rates(const TrajectoryProgram& program, const Eigen::VectorXd&
       const double constant = offsets_(j, i + 1) - offsets_(j, i);
       if (!(std::abs(change + tau * constant) <= tau * program.du_max(j, i))) return false;
       if (!program.lags(j, i)) continue;
-      const double command = phi[to + r] + tau * offsets_(j, i + 1) +
-                             program.lag(j, i) * (change + tau * constant);
+      const double command =
+          phi[to + r] + tau * offsets_(j, i + 1) + program.lag(j, i) * (change + tau * constant);
       const double low = program.u_min(j, i + 1), high = program.u_max(j, i + 1);
       if (!(tau * low <= command && command <= tau * high)) return false;
     }

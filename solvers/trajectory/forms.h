@@ -18,8 +18,8 @@ namespace maxwrench {
 /// hi. An elastic instant has x = (s, w, v). Its slacks s are subtracted from tau_d, and they are
 /// forms that cost rho |s|; so the largest weights at the end form a diagonal block.
 ///
-/// With a lag, the efforts of the rates also have forms of their commands, for each pair of instants
-/// (1 + lag) phi_i+1 - lag phi_i after all rates. They are left out with the rates.
+/// With a lag, the efforts of the rates also have forms of their commands, for each pair of
+/// instants (1 + lag) phi_i+1 - lag phi_i after all rates. They are left out with the rates.
 ///
 /// For most programs of trajectories, the answer of the program without rates or slacks satisfies
 /// the rates and needs no slack. So each may be left out, and the answer without them is valid for
@@ -33,11 +33,11 @@ struct Forms {
   void build(const TrajectoryProgram& program, bool with_rates = true, bool with_slacks = true);
 
   int N = 0;
-  int t = 0;      ///< 1 for max-min: whether z has t
-  int p = 0;      ///< y
-  int rated = 0;  ///< actuators with a rate limit or a lag at any instant
+  int t = 0;            ///< 1 for max-min: whether z has t
+  int p = 0;            ///< y
+  int rated = 0;        ///< actuators with a rate limit or a lag at any instant
   bool lagged = false;  ///< whether there are forms of commands
-  int size = 0;   ///< number of all forms
+  int size = 0;         ///< number of all forms
   int variables = 0;
   int rates0 = 0, commands0 = 0, border0 = 0;  ///< the first rate, command, and the first of y
   struct Stage {

@@ -15,8 +15,8 @@ constexpr double kSlight = 1e-6;
 
 }  // namespace
 
-/// Actuators with rates or a lag come first; those without rates that the null space of B does not move come
-/// last.
+/// Actuators with rates or a lag come first; those without rates that the null space of B does not
+/// move come last.
 void Forms::order_actuators(const TrajectoryProgram& program, bool with_rates) {
   const int m = actuation_->actuators();
   const auto has_rate = [&](int j) {

@@ -9,7 +9,8 @@ namespace maxwrench {
 struct Forms;
 
 /// H = sum_f theta_f phi_f phi_f' over the forms of a trajectory, factored by stages. Only the
-/// rates and commands couple the blocks K_i of the instants (K_i+1,i). The border z = (t, y) comes last.
+/// rates and commands couple the blocks K_i of the instants (K_i+1,i). The border z = (t, y) comes
+/// last.
 ///
 /// A pivot below the share `least_pivot` of its diagonal belongs to a direction that no form
 /// contains, and is left out.
@@ -47,7 +48,7 @@ class NormalMatrix {
   Eigen::VectorXd E_;              ///< d×b by rows, then L_i^-1 E_i
   Eigen::MatrixXd H_;              ///< b×b, then its factor
   Eigen::VectorXd weight_;         ///< theta, with that of rates and commands added to the efforts'
-  Eigen::MatrixXd coupling_;       ///< rated×(N-1): weights of the products of neighbouring efforts
+  Eigen::MatrixXd coupling_;  ///< rated×(N-1): weights of the products of neighbouring efforts
   Eigen::VectorXd weighted_, row_;
   RowMatrix stack_;
 };

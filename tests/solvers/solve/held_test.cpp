@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "maxwrench/load.h"
+#include "maxwrench/strategies.h"
 #include "solvers/solve/tank.h"
 
 namespace maxwrench {
@@ -40,10 +41,9 @@ TEST(SolveHeld, WhatIsReportedIsHeldAgain) {
   evaluator.evaluate_between_knots();
   ScriptOptions script;
   script.planned = held.share * evaluator.trajectory().value_between_knots;
-  const TankRun again =
-      simulate_trajectory(planned, evaluator.trajectory(), Wrench::kPure,
-                          trajectory_solvers().front(), script, "cvode", {})
-          .run;
+  const TankRun again = simulate_trajectory(planned, evaluator.trajectory(), Wrench::kPure,
+                                            trajectory_solvers().front(), script, "cvode", {})
+                            .run;
   EXPECT_TRUE(again.summary.held);
   EXPECT_DOUBLE_EQ(again.summary.low, held.reading);
   EXPECT_THAT(summary(held), HasSubstr("best_found"));
