@@ -7,8 +7,7 @@ set(maxwrench_solvers_sources
   certify/bound/multiplier_program.cpp certify/bound/pure_bound.cpp 
   certify/box_tree.cpp certify/certify.cpp certify/good_postures.cpp certify/halving.cpp certify/proof.cpp
   certify/proof_recorder.cpp
-  certify/trajectory/edge_program.cpp certify/trajectory/instant_bound.cpp certify/trajectory/instant_objective.cpp
-  certify/trajectory/instant_ranges.cpp certify/trajectory/plan_bound.cpp certify/trajectory/quadratic_loads.cpp certify/trajectory/solve_proven.cpp certify/trajectory/trajectory_proof.cpp
+  certify/trajectory/edge_program.cpp certify/trajectory/solve_proven.cpp certify/trajectory/trajectory_proof.cpp
   explain/best_posture.cpp explain/efforts.cpp explain/exits.cpp explain/explain.cpp explain/explanation_json.cpp
   explain/explanation_text.cpp explain/instants.cpp explain/limits.cpp
   integrator/runge_kutta.cpp
@@ -38,7 +37,9 @@ set(maxwrench_solvers_sources
   wrench_set/support.cpp
   margin/instant_scan.cpp margin/margin_text.cpp margin/motion_margin.cpp
   search/dp.cpp search/dp_grid.cpp search/dp_level.cpp search/dp_motion.cpp
-  solve/scenario_values.cpp solve/too_weak.cpp)
+  solve/scenario_values.cpp solve/too_weak.cpp
+  certify/trajectory/instant_bound.cpp certify/trajectory/instant_objective.cpp certify/trajectory/instant_ranges.cpp
+  certify/trajectory/plan_bound.cpp certify/trajectory/quadratic_loads.cpp)
 if(MAXWRENCH_WITH_SUNDIALS)
   list(APPEND maxwrench_solvers_sources
     integrator/arkode.cpp integrator/cvode.cpp integrator/ida.cpp integrator/sundials.cpp

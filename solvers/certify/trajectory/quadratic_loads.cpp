@@ -11,8 +11,8 @@ namespace {
 constexpr auto kAtOnce = static_cast<Eigen::Index>(NarrowDual::kDirections);
 
 /// All numbers from low to high, from place `from` on.
-VectorX<Narrow> between(const Eigen::VectorXd& low, const Eigen::VectorXd& high, Eigen::Index from,
-                        Eigen::Index count) {
+VectorX<Narrow> narrow_between(const Eigen::VectorXd& low, const Eigen::VectorXd& high,
+                               Eigen::Index from, Eigen::Index count) {
   return VectorX<Narrow>::NullaryExpr(
       count, [&](Eigen::Index i) { return Narrow(low[from + i], high[from + i]); });
 }
@@ -33,8 +33,8 @@ void QuadraticLoads::enclose(const Eigen::VectorXd& lower, const Eigen::VectorXd
   const VectorX<Narrow> none = VectorX<Narrow>::Constant(r, Narrow());
   const auto value = [&](const Eigen::VectorXd& low, const Eigen::VectorXd& high,
                          VectorX<Narrow>& result) {
-    plain_.set(between(low, high, 0, r));
-    plain_.evaluate({true, false, true}, between(low, high, r, r), none, result);
+    plain_.set(narrow_between(low, high, 0, r));
+    plain_.evaluate({true, false, true}, narrow_between(low, high, r, r), none, result);
   };
   value(lower, upper, whole_);
   value(middle, middle, centre_);
