@@ -4,6 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
