@@ -6,7 +6,6 @@
 #include "cli/cli.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
-#include "maxwrench/transfer_searches.h"
 #include "maxwrench/version.h"
 
 namespace maxwrench {

@@ -14,7 +14,6 @@
 #include "maxwrench/batch.h"
 #include "maxwrench/robot.h"
 #include "maxwrench/strategies.h"
-#include "maxwrench/transfer_searches.h"
 
 namespace maxwrench {
 namespace {

@@ -9,7 +9,6 @@
 
 #include "maxwrench/problem.h"
 #include "maxwrench/solve.h"
-#include "maxwrench/transfer_searches.h"
 #include "solvers/added_strategies.h"
 #include "solvers/integrator/makers.h"
 #include "solvers/lp/makers.h"

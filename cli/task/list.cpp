@@ -6,7 +6,6 @@
 #include "cli/output.h"
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
-#include "maxwrench/transfer_searches.h"
 
 namespace maxwrench {
 namespace {

@@ -115,6 +115,10 @@ std::span<const SearchEntry> trajectory_searches();
 ///
 /// They support static tasks with linf_polytope, for robots whose actuators have few facets.
 std::span<const SearchEntry> facet_searches();
+/// Returns the table of searches for transfers.
+///
+/// They reject all other tasks with std::invalid_argument. It is empty in a build without SUNDIALS.
+std::span<const SearchEntry> transfer_searches();
 /// Returns the table of integrators.
 std::span<const IntegratorEntry> integrators();
 /// Returns the names of the integrators that the virtual tank supports. Its load cell is stiff.

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
+
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {

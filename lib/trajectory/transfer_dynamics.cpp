@@ -2,8 +2,11 @@
 
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include "lib/trajectory/carried.h"
+#include "lib/trajectory/motion_evaluator.h"
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
@@ -37,24 +40,41 @@ SchemeMaps one_point() {
 
 }  // namespace
 
+struct TransferDynamics::Workspace {
+  explicit Workspace(const Problem& task)
+      : problem(task), motion(task, one_point()), Q(3, task.redundancy()) {}
+
+  const Problem& problem;
+  MotionEvaluator motion;
+  std::vector<Instant> instants;
+  std::vector<MotionSlopes> slopes;
+  Eigen::MatrixXd Q;  ///< 3×n: the rows q, v and a
+};
+
 TransferDynamics::TransferDynamics(const Problem& problem)
-    : problem_(require_transfer(problem)),
-      motion_(problem, one_point()),
-      Q_(3, problem.redundancy()) {}
+    : workspace_(std::make_unique<Workspace>(require_transfer(problem))),
+      f_(Eigen::VectorXd::Zero(problem.redundancy())),
+      g_(f_) {}
+TransferDynamics::~TransferDynamics() = default;
+
+const Eigen::MatrixXd& TransferDynamics::by_q() const { return workspace_->slopes.front().place; }
+const Eigen::MatrixXd& TransferDynamics::by_v() const { return workspace_->slopes.front().rate; }
+const Eigen::MatrixXd& TransferDynamics::M() const { return workspace_->slopes.front().bend; }
 
 void TransferDynamics::set(const Eigen::VectorXd& q, const Eigen::VectorXd& v,
                            const Eigen::VectorXd& a, double m) {
-  Q_.row(0) = q;
-  Q_.row(1) = v;
-  Q_.row(2) = a;
-  motion_.evaluate(Q_, instants_);
-  Instant& instant = instants_.front();
-  const PathPoint& x = motion_.maps().x.front();
-  instant.c = carried_wrench<double>(problem_.robot, *problem_.motion->payload,
+  Workspace& ws = *workspace_;
+  ws.Q.row(0) = q;
+  ws.Q.row(1) = v;
+  ws.Q.row(2) = a;
+  ws.motion.evaluate(ws.Q, ws.instants);
+  Instant& instant = ws.instants.front();
+  const PathPoint& x = ws.motion.maps().x.front();
+  instant.c = carried_wrench<double>(ws.problem.robot, *ws.problem.motion->payload,
                                      {x.pose.R, x.twist, x.acceleration});
   instant.h = m * instant.c;
   instant.factor = m;
-  motion_.linearize(instants_, slopes_);
+  ws.motion.linearize(ws.instants, ws.slopes);
   g_.noalias() = instant.J.transpose() * instant.c;
   f_ = instant.tau_d + m * g_;
 }

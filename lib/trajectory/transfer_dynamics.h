@@ -1,11 +1,12 @@
 #pragma once
 
-#include <vector>
+#include <memory>
 
-#include "lib/trajectory/motion_evaluator.h"
-#include "maxwrench/problem.h"
+#include "maxwrench/types.h"
 
 namespace maxwrench {
+
+struct Problem;
 
 /// The forces of a transfer at a point of its state space: with a = q'' and the mass m of the
 /// payload,
@@ -22,26 +23,22 @@ class TransferDynamics {
   ///         transfer does not move.
   explicit TransferDynamics(const Problem& problem);
   explicit TransferDynamics(const Problem&&) = delete;
+  ~TransferDynamics();
 
   /// n, the number of joints.
-  int joints() const { return static_cast<int>(Q_.cols()); }
+  int joints() const { return static_cast<int>(f_.size()); }
   /// Computes f, g and the derivatives of f. Units: rad or m, s, kg.
   void set(const Eigen::VectorXd& q, const Eigen::VectorXd& v, const Eigen::VectorXd& a, double m);
 
-  const Eigen::VectorXd& f() const { return f_; }                 ///< n [N, N m]
-  const Eigen::VectorXd& g() const { return g_; }                 ///< n, by m
-  const Eigen::MatrixXd& by_q() const { return slopes().place; }  ///< n×n
-  const Eigen::MatrixXd& by_v() const { return slopes().rate; }   ///< n×n
-  const Eigen::MatrixXd& M() const { return slopes().bend; }      ///< n×n, by a, symmetric
+  const Eigen::VectorXd& f() const { return f_; }  ///< n [N, N m]
+  const Eigen::VectorXd& g() const { return g_; }  ///< n, by m
+  const Eigen::MatrixXd& by_q() const;             ///< n×n
+  const Eigen::MatrixXd& by_v() const;             ///< n×n
+  const Eigen::MatrixXd& M() const;                ///< n×n, by a, symmetric
 
  private:
-  const MotionSlopes& slopes() const { return slopes_.front(); }
-
-  const Problem& problem_;
-  MotionEvaluator motion_;
-  std::vector<Instant> instants_;
-  std::vector<MotionSlopes> slopes_;
-  Eigen::MatrixXd Q_;  ///< 3×n: the rows q, v and a
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
   Eigen::VectorXd f_, g_;
 };
 

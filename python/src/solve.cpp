@@ -3,7 +3,6 @@
 #include <pybind11/stl.h>
 
 #include "maxwrench/strategies.h"
-#include "maxwrench/transfer_searches.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"

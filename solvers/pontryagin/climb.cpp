@@ -4,14 +4,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {
 
 constexpr int kFewestIntervals = 35;
-constexpr int kInstants = 4;             // of the motion of least effort, per interval
-constexpr double kStiffness = 1;         // for epsilon = 1
-constexpr double kPlanStiffness = 1e4;   // likewise, of a plan
+constexpr int kInstants = 4;      // of the motion of least effort, per interval
+constexpr double kStiffness = 1;  // for epsilon = 1
+constexpr double kMostStiffness = 30;
+constexpr double kFirstRaise = 2, kLeastRaise = 1.1;  // of the stiffness
+constexpr double kPlanStiffness = 1e4;                // likewise, of a plan
 constexpr double kSpeeds = 0.98;         // what the stiffness lets exceed is mostly below the limit
 constexpr double kUnlimitedReach = 1e6;  // factor of the limits of efforts
 constexpr int kFirstSteps = 40, kLaterSteps = 15;  // of Newton's method
@@ -53,6 +58,36 @@ bool lower_limits(Shooting& shooting, const Problem& problem, Extremal& at) {
     at = std::move(next);
   }
   return true;
+}
+
+/// The largest excess of a joint's speed at a node, as a share of its limit; negative: there is
+/// none.
+double excess_of_speeds(const Problem& problem, const Extremal& extremal) {
+  const Eigen::Index n = problem.redundancy();
+  double largest = -1;
+  for (const Eigen::VectorXd& node : extremal.nodes) {
+    for (Eigen::Index j = 0; j < n; ++j) {
+      const auto joint = static_cast<std::size_t>(problem.redundant[static_cast<std::size_t>(j)]);
+      const double fastest = problem.robot.joints[joint].velocity_max;
+      largest = std::max(largest, std::abs(node[n + j]) / fastest - 1);
+    }
+  }
+  return largest;
+}
+
+/// Raises the stiffness, as far as Newton's method follows, while a joint is too fast.
+void raise_stiffness(Shooting& shooting, const Problem& problem, Extremal& at) {
+  double factor = kFirstRaise;
+  while (at.index.stiffness < kMostStiffness && excess_of_speeds(problem, at) > 0) {
+    Extremal next = at;
+    next.index.stiffness = std::min(kMostStiffness, factor * at.index.stiffness);
+    if (shooting.solve(next, false, kLaterSteps) < 0) {
+      factor = std::sqrt(factor);
+      if (factor < kLeastRaise || shooting.ended()) return;
+      continue;
+    }
+    at = std::move(next);
+  }
 }
 
 /// The extremal of another epsilon, on the line through the last two over log(epsilon).
@@ -116,6 +151,7 @@ Climb climb(Shooting& shooting, const Problem& problem, const Eigen::MatrixXd& k
   };
   if (shooting.solve(at, false, kFirstSteps) < 0) return ended("no_extremal");
   if (!lower_limits(shooting, problem, at)) return ended("no_extremal");
+  raise_stiffness(shooting, problem, at);
   if (!(at.nu > 0)) return ended("effortless");
   const double share = 1 / at.nu;
   for (Eigen::VectorXd& node : at.nodes) node.tail(node.size() / 2) *= share;
@@ -124,15 +160,7 @@ Climb climb(Shooting& shooting, const Problem& problem, const Eigen::MatrixXd& k
   seen(at);
   result.end = lower_epsilon(shooting, at, seen);
   result.extremal = at;
-  const int n = problem.redundancy();
-  for (const Eigen::VectorXd& node : at.nodes) {
-    for (int j = 0; j < n; ++j) {
-      const auto joint = static_cast<std::size_t>(problem.redundant[static_cast<std::size_t>(j)]);
-      result.speed_excess =
-          std::max(result.speed_excess,
-                   std::abs(node[n + j]) / problem.robot.joints[joint].velocity_max - 1);
-    }
-  }
+  result.speed_excess = excess_of_speeds(problem, at);
   return result;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maxwrench/problem.h"
+
 namespace maxwrench {
 namespace {
 
@@ -76,6 +78,8 @@ Extremal Shooting::guess(const SplineMotion& motion, double m) {
   }
   return extremal;
 }
+
+double Shooting::duration() const { return problem_.motion->T; }
 
 CanonicalEquations& Shooting::equations(const Extremal& extremal) {
   equations_.set_index(extremal.index);

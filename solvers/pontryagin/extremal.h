@@ -48,7 +48,7 @@ class Shooting {
   CanonicalEquations& equations(const Extremal& extremal);
   /// The states at `per_interval` equal steps of each interval, the last one at T.
   std::vector<Eigen::VectorXd> sample(const Extremal& extremal, int per_interval);
-  double duration() const { return problem_.motion->T; }
+  double duration() const;  ///< T [s]
 
  private:
   bool evaluate(const Extremal& extremal, bool free_mass, bool with_slopes);

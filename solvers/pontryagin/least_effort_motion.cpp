@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lib/trajectory/canonical_equations.h"
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {

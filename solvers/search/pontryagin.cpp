@@ -17,11 +17,15 @@ constexpr long kMostOfClimb = 400;  // evaluations
 constexpr double kPlanRetreats[] = {0.9, 0.75, 0.5};
 constexpr long kOfPlan = 2 * (1 + std::size(kPlanRetreats));  // evaluations, of both plans
 
-const Problem& require_transfer_task(const TrajectoryObjective& objective) {
-  const Problem& problem = task_of(objective);
-  if (problem.motion && problem.motion->transfer) return problem;
-  throw std::invalid_argument("search: got 'pontryagin' for a " + std::string(problem.type()) +
-                              " task, expected a transfer: " + problem.name);
+/// Throws std::invalid_argument if the objective is not that of a transfer.
+TrajectoryObjective& require_transfer_objective(Objective& objective) {
+  TrajectoryObjective* const trajectories = as_trajectories(objective);
+  if (trajectories) {
+    const Problem& problem = task_of(*trajectories);
+    if (problem.motion && problem.motion->transfer) return *trajectories;
+  }
+  throw std::invalid_argument(
+      "search: got 'pontryagin', which supports only transfers, expected another search");
 }
 
 /// One climb and the plans of its extremals.
@@ -40,13 +44,14 @@ class Pontryagin final : public Search {
  public:
   SearchResult maximize(Objective& given, const SearchOptions& options) override {
     check(options, given);
-    TrajectoryObjective& objective = require_trajectories(given, "pontryagin");
-    const Problem& problem = require_transfer_task(objective);
+    TrajectoryObjective& objective = require_transfer_objective(given);
+    const Problem& problem = task_of(objective);
     CanonicalEquations check_limits(problem);
     SearchRun run(options);
     Part found;
     std::vector<Candidate> starts = draw_knot_starts(objective, options, run, found);
     const Eigen::VectorXd first = Box(objective).start(options.start);
+    std::erase_if(starts, [&](const Candidate& start) { return start.theta_r == first; });
     starts.insert(starts.begin(), Candidate{first, 0});
     if (starts.size() > kClimbs) starts.resize(kClimbs);
     if (objective.dimension() == 0) starts.clear();

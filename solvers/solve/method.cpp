@@ -15,7 +15,6 @@
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
-#include "maxwrench/transfer_searches.h"
 
 namespace maxwrench {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "lib/math/random.h"
 #include "maxwrench/load.h"
+#include "maxwrench/problem.h"
 
 namespace maxwrench {
 namespace {

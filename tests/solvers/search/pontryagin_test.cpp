@@ -6,7 +6,6 @@
 #include "maxwrench/problem.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
-#include "maxwrench/transfer_searches.h"
 
 namespace maxwrench {
 namespace {
