@@ -53,6 +53,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadWords{"solve planar/force --measure ellipsoid --search slp",
                  "--search: got 'slp', which supports only linf_polytope"},
         BadWords{"run planar/force measure=ellipsoid search=slp", "search: got 'slp'"},
+        BadWords{"solve " MAXWRENCH_SOURCE_DIR "/examples/tasks/two_link/luus.toml --search dp",
+                 "--search: got 'dp', which does not support a transfer"},
         BadWords{"solve planar/force --budget 0", "budget"},
         BadWords{"solve planar/force --budget many", "--budget"},
         BadWords{"solve planar/force --budget 99999999999", "100000000"},
