@@ -22,19 +22,19 @@ std::string example(const std::string& name) {
   return MAXWRENCH_SOURCE_DIR "/examples/tasks/" + name + ".toml";
 }
 
-Answer at_default(const Problem& problem) { return evaluate(problem, problem.theta_r_default); }
+Answer answer_at_default(const Problem& problem) { return evaluate(problem, problem.theta_r_default); }
 
 /// Each scenario alone has the interval that the list gives it.
 TEST(ScenarioAlone, HasTheEndsOfItsScenario) {
   for (const char* name : {"turn_both_ways", "lift_with_a_dead_thruster"}) {
     const Problem problem = load_problem(example(name));
-    const Answer answer = at_default(problem);
+    const Answer answer = answer_at_default(problem);
     const std::vector<ScenarioEnds> ends = scenario_ends(answer);
     ASSERT_EQ(static_cast<std::size_t>(scenario_count(problem)), ends.size());
     for (int i = 0; i < scenario_count(problem); ++i) {
       const ScenarioTask one = scenario_alone(problem, i);
       EXPECT_EQ(one.name, ends[static_cast<std::size_t>(i)].name);
-      const Answer alone = at_default(one.task);
+      const Answer alone = answer_at_default(one.task);
       EXPECT_NEAR(alone.beta() / one.length, ends[static_cast<std::size_t>(i)].high, 1e-9)
           << one.name;
     }
@@ -60,7 +60,7 @@ TEST(TankScenarios, TheValueOfAListIsHeldInEachScenario) {
   options.until_hold = true;
   options.hold = 2;
   const ScenarioExperiments experiments =
-      simulate_scenarios(at_default(problem), 0, "cvode", options);
+      simulate_scenarios(answer_at_default(problem), 0, "cvode", options);
   EXPECT_EQ(experiments.status, Status::kReached) << experiments.reason.c_str();
   EXPECT_NEAR(experiments.planned, 14.55665, 5e-5);  // an independent model
   ASSERT_EQ(experiments.all.size(), 9u);
@@ -78,7 +78,7 @@ TEST(TankScenarios, MoreThanTheValueIsNotHeldByTheOneThatDecides) {
   TankOptions options;
   options.until_hold = true;
   options.hold = 2;
-  const Answer answer = at_default(problem);
+  const Answer answer = answer_at_default(problem);
   const ScenarioExperiments experiments = simulate_scenarios(answer, 20, "cvode", options);
   EXPECT_FALSE(experiments.held());
   EXPECT_TRUE(experiments.all.front().experiment.run.summary.held);  // nothing is lost
@@ -95,7 +95,7 @@ TEST(TankScenarios, EachScenarioExertsItsOwnWrench) {
   options.until_hold = true;
   options.hold = 2;
   const ScenarioExperiments experiments =
-      simulate_scenarios(at_default(problem), 2, "cvode", options);
+      simulate_scenarios(answer_at_default(problem), 2, "cvode", options);
   ASSERT_EQ(experiments.all.size(), 3u);
   EXPECT_TRUE(experiments.held());
   EXPECT_NEAR(experiments.all[0].experiment.run.summary.mean, 2, 0.04);
@@ -114,7 +114,7 @@ TEST(TankScenarios, DeathsAreAddedToTheWrenchesOfTheIntactRobot) {
   options.hold = 10;
   options.deaths = {death_of(problem.robot, "dies", "rear_left_vertical", 7)};
   const ScenarioExperiments experiments =
-      simulate_scenarios(at_default(problem), 0, "cvode", options);
+      simulate_scenarios(answer_at_default(problem), 0, "cvode", options);
   ASSERT_EQ(experiments.all.size(), 1u);
   EXPECT_EQ(experiments.all[0].scenario.name, "nominal");
   EXPECT_TRUE(experiments.held()) << experiments.all[0].experiment.run.summary.missed;

@@ -45,8 +45,12 @@ TEST(PlanBound, SLOW_IsAboveTheBestKnownTrajectories) {
 TEST(PlanBound, OfAnOpenPeakIsThatOfTheBestOne) {
   Problem task = load_problem("uvms/lift_impulse");
   task.motion->t_h = 0;
+  Options options;
+  options.check_collision = false;
+  ProofOptions limits;
+  limits.seconds = 3;
   const PlanBound open = bound_trajectories(
-      task, {.check_collision = false}, {.seconds = 3},
+      task, options, limits,
       Eigen::MatrixXd(task.theta_r_default.transpose().replicate(task.motion->k, 1)));
   EXPECT_GE(open.bound, 114.5);  // that of the best known trajectory, whose peak is the third knot
 }
