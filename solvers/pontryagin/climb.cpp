@@ -12,11 +12,9 @@ namespace maxwrench {
 namespace {
 
 constexpr int kFewestIntervals = 35;
-constexpr int kInstants = 4;      // of the motion of least effort, per interval
-constexpr double kStiffness = 1;  // for epsilon = 1
-constexpr double kMostStiffness = 30;
-constexpr double kFirstRaise = 2, kLeastRaise = 1.1;  // of the stiffness
-constexpr double kPlanStiffness = 1e4;                // likewise, of a plan
+constexpr int kInstants = 4;             // of the motion of least effort, per interval
+constexpr double kStiffness = 1;         // for epsilon = 1
+constexpr double kPlanStiffness = 1e4;   // likewise, of a plan
 constexpr double kSpeeds = 0.98;         // what the stiffness lets exceed is mostly below the limit
 constexpr double kUnlimitedReach = 1e6;  // factor of the limits of efforts
 constexpr int kFirstSteps = 40, kLaterSteps = 15;  // of Newton's method
@@ -73,21 +71,6 @@ double excess_of_speeds(const Problem& problem, const Extremal& extremal) {
     }
   }
   return largest;
-}
-
-/// Raises the stiffness, as far as Newton's method follows, while a joint is too fast.
-void raise_stiffness(Shooting& shooting, const Problem& problem, Extremal& at) {
-  double factor = kFirstRaise;
-  while (at.index.stiffness < kMostStiffness && excess_of_speeds(problem, at) > 0) {
-    Extremal next = at;
-    next.index.stiffness = std::min(kMostStiffness, factor * at.index.stiffness);
-    if (shooting.solve(next, false, kLaterSteps) < 0) {
-      factor = std::sqrt(factor);
-      if (factor < kLeastRaise || shooting.ended()) return;
-      continue;
-    }
-    at = std::move(next);
-  }
 }
 
 /// The extremal of another epsilon, on the line through the last two over log(epsilon).
@@ -151,7 +134,6 @@ Climb climb(Shooting& shooting, const Problem& problem, const Eigen::MatrixXd& k
   };
   if (shooting.solve(at, false, kFirstSteps) < 0) return ended("no_extremal");
   if (!lower_limits(shooting, problem, at)) return ended("no_extremal");
-  raise_stiffness(shooting, problem, at);
   if (!(at.nu > 0)) return ended("effortless");
   const double share = 1 / at.nu;
   for (Eigen::VectorXd& node : at.nodes) node.tail(node.size() / 2) *= share;
