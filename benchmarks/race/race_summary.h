@@ -26,7 +26,7 @@ bool is_plain(const std::string& search);
 struct Standing {
   std::string search;
   bool is_default = false;  ///< on any of the problems
-  int supported = 0;           ///< number of supported problems
+  int supported = 0;        ///< number of supported problems
   /// Expected seconds to a thousandth on each problem [problems]; infinity where the search does
   /// not support the problem or none of its attempts reached it.
   std::vector<double> seconds;

@@ -73,12 +73,14 @@ std::string MapRows::fault(const MapCell& cell) const {
   bool inside = (cell.at - at).cwiseAbs().maxCoeff() <= kAnswerTolerance;
   for (std::size_t i = 0; i < axes_; ++i) {
     const double x = cell.at[static_cast<Eigen::Index>(i)];
-    inside = inside && x >= over_[i].low - kAnswerTolerance && x <= over_[i].high + kAnswerTolerance;
+    inside =
+        inside && x >= over_[i].low - kAnswerTolerance && x <= over_[i].high + kAnswerTolerance;
   }
   if (!inside) return fault("other coordinates", "those of its place");
   if (cell.status != Status::kBestFound) return "";
   if (cell.bound < cell.beta) {
-    return fault(fmt::format("bound {:.9g}", cell.bound), fmt::format("at least {:.9g}", cell.beta));
+    return fault(fmt::format("bound {:.9g}", cell.bound),
+                 fmt::format("at least {:.9g}", cell.beta));
   }
   Problem here = posed(task_, over_, at);
   prepare_ik_solutions(here);
@@ -86,7 +88,7 @@ std::string MapRows::fault(const MapCell& cell) const {
   const double beta = anew.has_value() ? anew.beta() : std::numeric_limits<double>::quiet_NaN();
   if (!(std::abs(beta - cell.beta) <= kAnswerTolerance * (1 + std::abs(cell.beta)))) {
     return fault(fmt::format("beta {:.9g}", cell.beta),
-           fmt::format("{:.9g}, the value of its posture", beta));
+                 fmt::format("{:.9g}, the value of its posture", beta));
   }
   return "";
 }

@@ -40,7 +40,8 @@ nlohmann::ordered_json settings_of(const Problem& task, const MapPlan& plan, con
 bool take_over_proofs(const std::vector<std::string>& from, std::size_t bound, std::size_t scratch,
                       std::vector<std::string>& to) {
   const std::vector<std::string> before = to;
-  if (map_number(from[bound], kInfinity) < map_number(to[bound], kInfinity)) to[bound] = from[bound];
+  if (map_number(from[bound], kInfinity) < map_number(to[bound], kInfinity))
+    to[bound] = from[bound];
   if (to[scratch].empty() ||
       (!from[scratch].empty() && map_number(from[scratch]) > map_number(to[scratch]))) {
     to[scratch] = from[scratch];

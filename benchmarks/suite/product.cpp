@@ -29,7 +29,8 @@ Names wanted(const Names& column, const Names& supported) {
   if (column == Names{kAll} || supported.empty()) return supported;
   Names names;
   for (const std::string& name : column) {
-    if (name.empty() || has(supported, name)) names.push_back(name.empty() ? supported.front() : name);
+    if (name.empty() || has(supported, name))
+      names.push_back(name.empty() ? supported.front() : name);
   }
   return names;
 }

@@ -180,7 +180,8 @@ void add_verify(CLI::App& app, int& exit_status) {
                   "it names)")
       ->check(reject_empty);
   command
-      .add_option("--sample", options->sample, "number of rows of values.csv.gz, or of cells of a map, to check (0: all)")
+      .add_option("--sample", options->sample,
+                  "number of rows of values.csv.gz, or of cells of a map, to check (0: all)")
       ->capture_default_str()
       ->check(CLI::NonNegativeNumber);
   command.add_option("--seed", options->choice.seed, "seed of the sample")

@@ -116,7 +116,8 @@ PaperTable reproduce_tank(const std::filesystem::path& folder, int threads, long
       100 * TankOptions().margin, kTrackedConfigurationError);
   for (const char* name : {"uvms/valve_trajectory", "uvms/valve_impulse", "uvms/lift_impulse"}) {
     text += fmt::format(
-        "\n{}: {}\nscheme    found_by   lag   feedfwd     value  between   proven  reading    share  "
+        "\n{}: {}\nscheme    found_by   lag   feedfwd     value  between   proven  reading    "
+        "share  "
         "error  held\n",
         name, load_problem(name).unit());
     for (const TankPlan& plan : plans_of(name, folder, threads, budget)) {

@@ -27,7 +27,7 @@ struct MeasureEntry {
   const char* name;     ///< as on the command line
   const char* summary;  ///< one line of description
   bool needs_solver;    ///< false: a closed form, for which `make` ignores the solver
-  bool supports_any;      ///< false: rejects Wrench::kAny, which would have no meaning
+  bool supports_any;    ///< false: rejects Wrench::kAny, which would have no meaning
   const char* unit;     ///< of its value; null: that of the wrench along c
   /// Makes the measure for a problem, which must outlive it.
   std::function<std::unique_ptr<Measure>(const Problem&, std::unique_ptr<WrenchSolver>)> make;

@@ -152,18 +152,19 @@ struct MotionSummary {
 
 /// What the cell reads after the last actuator failed, to the end of the hold or of the motion.
 struct AfterDeaths {
-  double t = 0;                    ///< when it failed [s]
-  double mean = 0,                 ///< mean of c'h_e after the transient [N, N m]; NaN: none is left
-      low = 0,                     ///< lowest c'h_e, in the transient as well
-      high = 0,                    ///< highest c'h_e
-      last = 0;                    ///< c'h_e at the end
+  double t = 0;     ///< when it failed [s]
+  double mean = 0,  ///< mean of c'h_e after the transient [N, N m]; NaN: none is left
+      low = 0,      ///< lowest c'h_e, in the transient as well
+      high = 0,     ///< highest c'h_e
+      last = 0;     ///< c'h_e at the end
   double configuration_error = 0;  ///< largest `TankSample::configuration_error` [rad, m]
 };
 
 /// The summary of the hold of an experiment.
 ///
-/// Numbers are NaN if there was no hold, and leave out transients (kTransient). If the posture was lost, the largest errors include that
-/// instant. For a task in time the hold is the whole experiment.
+/// Numbers are NaN if there was no hold, and leave out transients (kTransient). If the posture was
+/// lost, the largest errors include that instant. For a task in time the hold is the whole
+/// experiment.
 struct TankSummary {
   double planned = 0;           ///< planned wrench c'h [N, N m]
   double mean = 0,              ///< mean of c'h_e [N, N m]

@@ -60,11 +60,11 @@ bool supported_between_facets(const Problem& problem, const std::string& measure
 /// The names of the lower-level solvers that support a measure and a wrench, `kNoSolver` for a
 /// closed form. Empty if the measure does not support the wrench. The first one is the default.
 std::vector<std::string> supported_solvers(const Problem& problem, const std::string& measure,
-                                        Wrench wrench);
+                                           Wrench wrench);
 
 /// The single methods that support a measure, those of a task in time first.
 std::vector<std::string> supported_searches(const Problem& problem, const std::string& measure,
-                                         Wrench wrench);
+                                            Wrench wrench);
 
 /// Has no search if the case names none. Throws std::invalid_argument on a name that does not exist
 /// and on an invalid choice, such as `facets` for several wrench columns or for actuators with too

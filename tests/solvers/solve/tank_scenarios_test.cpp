@@ -22,7 +22,9 @@ std::string example(const std::string& name) {
   return MAXWRENCH_SOURCE_DIR "/examples/tasks/" + name + ".toml";
 }
 
-Answer answer_at_default(const Problem& problem) { return evaluate(problem, problem.theta_r_default); }
+Answer answer_at_default(const Problem& problem) {
+  return evaluate(problem, problem.theta_r_default);
+}
 
 /// Each scenario alone has the interval that the list gives it.
 TEST(ScenarioAlone, HasTheEndsOfItsScenario) {

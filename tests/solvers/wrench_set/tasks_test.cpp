@@ -142,7 +142,7 @@ TEST_P(WrenchSetsOfTasks, PolytopesHaveTheCapabilityAlongC) {
 TEST_P(WrenchSetsOfTasks, EllipsoidsHaveTheCapabilityAlongC) {
   const Zonotope& actuation = problem_.robot.actuation;
   const bool supported = actuation.full_row_rank() && (actuation.u_min.array() < 0).all() &&
-                      (actuation.u_max.array() > 0).all();
+                         (actuation.u_max.array() > 0).all();
   if (!supported || problem_.contact_columns() > 0) return;
   const Eigen::MatrixXd K = weighted_inverse(problem_.robot, "test");
   for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
