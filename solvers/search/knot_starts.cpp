@@ -229,6 +229,10 @@ std::vector<Candidate> find_coarse_starts(TrajectoryObjective& objective,
     return x.cwiseMax(of.lower()).cwiseMin(of.upper());
   };
   const Eigen::VectorXd start = Box(objective).start(options.start);
+  // First the start, which an interrupted search returns.
+  const double given = evaluate_tables(
+                           objective, options, 1, [&](long) { return start; }, run, found)
+                           .front();
   const Eigen::VectorXd coarse_start = inside(*coarse, resampled(start, knots, few));
   const KnotDrawing drawing(*coarse, coarse->trajectories(), coarse_start);
   const std::vector<Candidate> drawn =
@@ -254,16 +258,15 @@ std::vector<Candidate> find_coarse_starts(TrajectoryObjective& objective,
     tables.push_back(steps.moved(step));
     tables.push_back(steps.moved(0.5 * step));
   }
-  tables.push_back(start);
   const auto table = [&](long i) { return tables[static_cast<std::size_t>(i)]; };
   const std::vector<double> values =
       evaluate_tables(objective, options, static_cast<long>(tables.size()), table, run, found);
   std::vector<Candidate> starts;
   for (std::size_t i = 0; i < tables.size(); i += 2) {
-    const bool half = i + 1 < tables.size() && values[i + 1] > values[i];
-    const std::size_t at = half ? i + 1 : i;
+    const std::size_t at = values[i + 1] > values[i] ? i + 1 : i;
     if (values[at] > -kInfinity) starts.push_back({tables[at], values[at]});
   }
+  if (given > -kInfinity) starts.push_back({start, given});
   return starts;
 }
 

@@ -42,7 +42,7 @@ const std::map<std::string, std::string> kImplementedIn = {{"strategies.h", "sol
                                                            {"plan_bound.h", "solvers"}};
 
 /// How deep a chain of our own includes may go.
-constexpr int kMostIncludeDepth = 9;
+constexpr int kMostIncludeDepth = 10;
 
 int floor_of(const std::string& folder) {
   for (std::size_t i = 0; i < kFloors.size(); ++i) {
@@ -171,7 +171,7 @@ TEST(Floors, PublicHeadersIncludeNothingPrivate) {
     }
   }
   EXPECT_GE(headers, 20);
-  EXPECT_LE(headers, 42);
+  EXPECT_LE(headers, 44);
 }
 
 int depth(const std::string& file, std::map<std::string, int>& known) {

@@ -91,7 +91,8 @@ TEST(CertifyCommand, RejectsInOneLine) {
     EXPECT_EQ(std::count(result.err.begin(), result.err.end(), '\n'), 1) << result.err;
     EXPECT_NE(result.err.find(mention), std::string::npos) << result.err;
   };
-  rejected("mobile/trajectory", "for a proof in time");
+  rejected("mobile/trajectory", "for a bound on trajectories");
+  rejected("mobile/trajectory --theta-r 2.3,-2", "for a proof in time");
   rejected("dual_arm/bar_wall --measure ellipsoid", "got 'ellipsoid'");
   rejected("fixed/push --wrench any", "dependent joints");
   rejected("dual_arm/bar_wall --certificate proof.bin",

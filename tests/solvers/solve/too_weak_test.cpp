@@ -41,7 +41,7 @@ bool bears(const Problem& task, const Posture& posture, double s) {
       if (std::abs(load) > e) return false;
       continue;
     }
-    const auto [from, to] = std::minmax((-e - load) / a[i], (e - load) / a[i]);
+    const auto [from, to] = std::minmax({(-e - load) / a[i], (e - load) / a[i]});
     low = std::max(low, from);
     high = std::min(high, to);
   }
