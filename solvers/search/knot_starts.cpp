@@ -237,7 +237,9 @@ std::vector<Candidate> find_coarse_starts(TrajectoryObjective& objective,
   const KnotDrawing drawing(*coarse, coarse->trajectories(), coarse_start);
   const std::vector<Candidate> drawn =
       spread(sample(*coarse, options, drawing, coarse_start, kCoarseSamples + 1, run, found, true));
-  if (drawn.empty()) return {};
+  std::vector<Candidate> starts;
+  if (run.ended() && given > -kInfinity) starts.push_back({start, given});
+  if (drawn.empty() || run.ended()) return starts;
   const std::vector<Candidate> alike = families(
       optimise(*coarse, options, drawn, {true, kCoarseAlike, kCoarseAlikeSteps, true}, run, found),
       drawn.front().value);
@@ -261,7 +263,6 @@ std::vector<Candidate> find_coarse_starts(TrajectoryObjective& objective,
   const auto table = [&](long i) { return tables[static_cast<std::size_t>(i)]; };
   const std::vector<double> values =
       evaluate_tables(objective, options, static_cast<long>(tables.size()), table, run, found);
-  std::vector<Candidate> starts;
   for (std::size_t i = 0; i < tables.size(); i += 2) {
     const std::size_t at = values[i + 1] > values[i] ? i + 1 : i;
     if (values[at] > -kInfinity) starts.push_back({tables[at], values[at]});
