@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "maxwrench/problem.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {
@@ -108,13 +109,6 @@ const char* lower_epsilon(Shooting& shooting, Extremal& at,
     if (steps <= kFewSteps) factor = std::max(kSmallestFactor, factor * factor);
   }
   return "jumps";
-}
-
-/// The name of actuator i: of a thruster, or of the joint that a motor drives.
-std::string actuator_name(const Robot& robot, Eigen::Index i) {
-  const auto at = static_cast<std::size_t>(i);
-  const std::size_t thrusters = robot.thrusters.size();
-  return at < thrusters ? robot.thrusters[at].name : robot.joints[at - thrusters].name;
 }
 
 }  // namespace

@@ -159,7 +159,7 @@ class ExtremalFlow::Session {
 };
 
 ExtremalFlow::ExtremalFlow(CanonicalEquations& equations)
-    : equations_(equations), session_(std::make_unique<Session>(equations)) {}
+    : session_(std::make_unique<Session>(equations)) {}
 ExtremalFlow::~ExtremalFlow() = default;
 
 bool ExtremalFlow::advance(double duration, Eigen::VectorXd& z, double m, double costate,

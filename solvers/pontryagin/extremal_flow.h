@@ -30,7 +30,6 @@ class ExtremalFlow {
 
  private:
   class Session;
-  CanonicalEquations& equations_;
   std::unique_ptr<Session> session_;
 };
 
