@@ -49,7 +49,8 @@ TEST(LagCommand, RejectsAKeyThatIsNoTimeConstant) {
 TEST(LagCommand, AProofRejectsALag) {
   EditedCopy copy;
   copy.replace("trajectory.toml", "k = 8", "k = 8\nthruster_lag = 0.1");
-  const CommandResult result = run_maxwrench("certify trajectory.toml --theta-r 0.1,0.1", copy.path());
+  const CommandResult result =
+      run_maxwrench("certify trajectory.toml --theta-r 0.1,0.1", copy.path());
   EXPECT_EQ(result.exit_status, 2);
   EXPECT_NE(result.err.find("motion.thruster_lag"), std::string::npos) << result.err;
 }
