@@ -50,6 +50,8 @@ void print_bound_text(const PlanBound& bound, const Problem& problem, bool given
   if (std::isfinite(bound.bound)) {
     fmt::print("bound     {:>9.5f} {}: no trajectory has more, by the instant t = {:.5g} s\n",
                bound.bound, answer.unit, bound.t);
+  } else if (bound.status == Status::kInfeasible) {
+    fmt::print("bound     no trajectory has a value, by the instant t = {:.5g} s\n", bound.t);
   } else {
     fmt::print("bound     none proven\n");
   }

@@ -145,10 +145,12 @@ int verify_trajectory_file(const std::string& file, const std::string& problem, 
     fmt::print("{}{}\n", proof.problem, proof.collision ? "" : "  collisions ignored");
     const std::string when = proof.t >= 0 ? fmt::format("t = {:.5g} s: ", proof.t) : "";
     fmt::print("{}\n", proof.verified() ? "verified" : "rejected: " + when + proof.rejection);
-    fmt::print("guaranteed {:>8.5f} {}{}\n", proof.guaranteed, proof.unit,
-               !proof.verified() ? ", as claimed"
-               : proof.t_h > 0   ? ": proven at the peak"
-                                 : ": proven at every instant");
+    if (std::isfinite(proof.guaranteed)) {
+      fmt::print("guaranteed {:>8.5f} {}{}\n", proof.guaranteed, proof.unit,
+                 !proof.verified() ? ", as claimed"
+                 : proof.t_h > 0   ? ": proven at the peak"
+                                   : ": proven at every instant");
+    }
     if (proof.verified()) fmt::print("{}", decides_line(proof.scenarios, proof.decides));
     if (proof.verified()) fmt::print("clearance  {}\n", words_of_clearance(proof.clearance));
     fmt::print("slices     {}, {} parts between knots\n", proof.slices, proof.parts);

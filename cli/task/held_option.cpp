@@ -22,7 +22,17 @@ void HeldOption::add(CLI::App& app) {
   app.add_option("--simulations", how.simulations, "largest number of experiments of --worth tank")
       ->capture_default_str()
       ->check(CLI::Range(1L, kMostSimulations))
-      ->needs("--worth");
+      ->needs("--worth")
+      ->each([this](const std::string&) { has_simulations = true; });
+}
+
+bool HeldOption::tank() const {
+  if (worth == "tank") return true;
+  if (has_simulations) {
+    throw std::invalid_argument("--simulations: got " + std::to_string(how.simulations) +
+                                ", expected no such option without --worth tank");
+  }
+  return false;
 }
 
 HeldTrajectory HeldOption::solve(const Problem& problem, Options options) const {
@@ -32,6 +42,7 @@ HeldTrajectory HeldOption::solve(const Problem& problem, Options options) const 
   }
   Progress progress("solve", static_cast<double>(how.simulations));
   CtrlC ctrl_c;
+  options.progress = progress.counter();
   options.interrupted = ctrl_c.asked();
   HeldTrajectory held = solve_held(problem, options, how);
   progress.finish();

@@ -11,9 +11,13 @@ namespace maxwrench {
 struct HeldOption {
   std::string worth = "plan";
   HeldOptions how;
+  bool has_simulations = false;
 
   void add(CLI::App& app);
-  bool tank() const { return worth == "tank"; }
+  /// Whether the tank counts.
+  ///
+  /// @throws std::invalid_argument if --simulations is given although the plan counts
+  bool tank() const;
   /// Searches with progress on stderr until Ctrl-C.
   ///
   /// @throws std::invalid_argument for a static task

@@ -21,8 +21,8 @@ struct HeldOptions {
 
 /// A trajectory and its experiment in the virtual tank.
 ///
-/// The status is kBestFound, kBudgetExhausted after an interruption, or kNoneFound if no experiment
-/// was held.
+/// The status is kBestFound, kBudgetExhausted after an interruption, with the best until then if
+/// there is one, or kNoneFound if no experiment was held.
 struct HeldTrajectory : Verdict {
   Answer answer;  ///< the trajectory, planned for the lag of the tank's thrusters
   TankRun run;    ///< its experiment
@@ -50,7 +50,8 @@ struct HeldTrajectory : Verdict {
 /// all knots, in the null space of the equations that the scheme may have, and the planned wrench.
 ///
 /// @param task     a task in time with one wrench along c
-/// @param options  wrench, solver, search and budget of the first trajectories, seed and callbacks
+/// @param options  wrench, solver, search and budget of the first trajectories, seed and callbacks;
+///                 the progress counts experiments
 /// @param how      number of experiments, integrator and tank
 /// @return the best trajectory found; the same at any number of threads
 /// @throws std::invalid_argument if the task is not supported, or as `solve` and `check`.

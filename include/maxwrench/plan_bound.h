@@ -14,10 +14,13 @@ namespace maxwrench {
 ///
 /// * kProven: the gap is at most the requested one;
 /// * kBracket: the bound holds, but the gap is larger; the reason says why;
+/// * kInfeasible: proved that no trajectory has a value; the bound is -infinity;
 /// * that of `answer` if no trajectory with a value is known. The bound holds as well.
 struct PlanBound : Verdict {
-  Answer answer;             ///< the best trajectory known, or the given one
-  double bound = kInfinity;  ///< no trajectory has a larger value [unit of the answer]
+  Answer answer;  ///< the best trajectory known, or the given one
+  /// No trajectory has a larger value [unit of the answer]. -infinity: none has a value, by the
+  /// instant t. Infinity: nothing was proven.
+  double bound = kInfinity;
   /// The instant whose balance proves the bound [s].
   double t = std::numeric_limits<double>::quiet_NaN();
   /// The largest value found of the relaxation at that instant: the instant alone allows it, so it

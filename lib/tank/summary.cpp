@@ -62,15 +62,22 @@ bool in_transient(const TankOptions& options, double t) {
   });
 }
 
-/// What the cell reads from the last failure to `end`; nothing if no sample is there.
-std::optional<AfterDeaths> read_after(const TankOptions& options, double end, const TankRun& run) {
-  if (options.deaths.empty()) return {};
+/// What the cell reads from the last failure before `end` to `end`, not before `start`; nothing if
+/// no sample is there.
+std::optional<AfterDeaths> read_after(const TankOptions& options, double start, double end,
+                                      const TankRun& run) {
+  const double half = options.period / 2;
   AfterDeaths after;
-  for (const ActuatorDeath& death : options.deaths) after.t = std::max(after.t, death.t);
+  bool any = false;
+  for (const ActuatorDeath& death : options.deaths) {
+    if (death.t + half > end) continue;  // after the hold
+    after.t = std::max(after.t, death.t);
+    any = true;
+  }
+  if (!any) return {};
   int count = 0, settled = 0;
   for (const TankSample& sample : run.samples) {
-    const double half = options.period / 2;
-    if (sample.t < after.t + half || sample.t > end + half) continue;
+    if (sample.t < std::max(after.t + half, start - half) || sample.t > end + half) continue;
     after.low = count == 0 ? sample.reading : std::min(after.low, sample.reading);
     after.high = count == 0 ? sample.reading : std::max(after.high, sample.reading);
     after.last = sample.reading;
@@ -105,13 +112,18 @@ void add_sample(const TankSample& sample, TankSummary& summary) {
   summary.relaxed += sample.relaxed;
 }
 
+/// Adds a condition to `missed`.
+void miss(const char* what, TankSummary& summary) {
+  if (!summary.missed.empty()) summary.missed += "; ";
+  summary.missed += what;
+}
+
 /// Adds a value to `missed` if it exceeds its limit or is NaN.
 void allow(double most, const char* what, double value, TankSummary& summary) {
   if (value <= most) return;
   std::array<char, 120> text{};
-  std::snprintf(text.data(), text.size(), "%s%s %.3g, at most %.3g",
-                summary.missed.empty() ? "" : "; ", what, value, most);
-  summary.missed += text.data();
+  std::snprintf(text.data(), text.size(), "%s %.3g, at most %.3g", what, value, most);
+  miss(text.data(), summary);
 }
 
 /// The largest error of a reading that is held.
@@ -139,8 +151,7 @@ void judge_posture(double moved, TankSummary& summary) {
 void judge_after(double room, TankSummary& summary) {
   if (!summary.after) return;
   if (std::isnan(summary.after->mean)) {
-    if (!summary.missed.empty()) summary.missed += "; ";
-    summary.missed += "nothing is left after the transient of the last failure";
+    miss("nothing is left after the transient of the last failure", summary);
   } else {
     allow(room, "reading after the last failure off by",
           std::abs(summary.after->mean - summary.planned), summary);
@@ -180,7 +191,7 @@ TankSummary summarise(const Problem& problem, const TargetWrench& target,
     summary.relaxed += sample.relaxed;
   }
   if (lost) reach(run.samples.back(), summary);
-  summary.after = read_after(options, options.ramp + options.hold, run);
+  summary.after = read_after(options, options.ramp, options.ramp + options.hold, run);
   if (count == 0) {
     forget(summary, lost);
     summary.missed = "no hold";
@@ -210,29 +221,36 @@ TankSummary summarise(const TankScript& script, const TankOptions& options, cons
   }
   summary.low = kInfinity;
   summary.high = -kInfinity;
+  // If nothing is left beside the transients, the numbers are theirs, and it is not held.
+  const bool settles =
+      std::any_of(run.samples.begin(), run.samples.end(),
+                  [&](const TankSample& sample) { return !in_transient(options, sample.t); });
   double nearest = kInfinity;
+  bool peak_counts = true;
   int count = 0;
   for (const TankSample& sample : run.samples) {
-    if (in_transient(options, sample.t)) continue;
+    const bool transient = in_transient(options, sample.t);
+    if (std::abs(sample.t - script.t_h) < nearest) {
+      nearest = std::abs(sample.t - script.t_h);
+      motion.at_peak = sample.reading;
+      peak_counts = !transient;
+    }
+    if (transient && settles) continue;
     ++count;
     add_sample(sample, summary);
-    if (!(std::abs(sample.t - script.t_h) < nearest)) continue;
-    nearest = std::abs(sample.t - script.t_h);
-    motion.at_peak = sample.reading;
   }
-  if (count == 0) {
-    forget(summary, lost);
-  } else {
-    take_means(count, summary);
-  }
-  summary.after = read_after(options, run.samples.back().t, run);
-  const double missed =
-      std::isfinite(script.t_h) ? std::abs(motion.at_peak - script.planned) : motion.deviation;
+  take_means(count, summary);
+  summary.after = read_after(options, 0, run.samples.back().t, run);
   allow(0, "samples beyond a limit of effort, rate or joint speed:", motion.violations, summary);
   judge_posture(kTrackedConfigurationError, summary);
-  allow(kTrackedWrenchError * std::abs(script.planned), "reading off by", missed, summary);
-  if (!std::isfinite(script.t_h)) {
-    judge_after(kTrackedWrenchError * std::abs(script.planned), summary);
+  const double room = kTrackedWrenchError * std::abs(script.planned);
+  if (!peak_counts) {
+    miss("the peak is in the transient of a failure", summary);
+  } else if (std::isfinite(script.t_h)) {
+    allow(room, "reading off by", std::abs(motion.at_peak - script.planned), summary);
+  } else {
+    allow(room, "reading off by", motion.deviation, summary);
+    judge_after(room, summary);
   }
   conclude(run, lost, summary);
   return summary;

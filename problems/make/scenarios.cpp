@@ -217,6 +217,10 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
   if (problem.motion && task.loss && task.loss->joints_lock) {
     throw BadValue("loss.joints", "'locked'", "'limp' in tasks in time, where joints move");
   }
+  if (problem.motion && task.loss && task.loss->friction != 0) {
+    throw BadValue("loss.friction", shown(task.loss->friction),
+                   "0 in tasks in time, where friction opposes the rate of a joint");
+  }
   list.loads = uncertain_loads(uncertainty, problem);
   if (!current_of(task).isZero(0)) list.loads.push_back(known_current(task, problem.robot));
   const std::vector<ActuatorLimits> limits = actuator_limits(task.loss, uncertainty, problem.robot);

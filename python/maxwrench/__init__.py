@@ -22,7 +22,7 @@ in the axes of the world; ``moved``, ``to_pinocchio`` and ``to_drake`` change po
 from . import _arguments, _core, _dict, _frames, _html, _map, _plot, _view
 from ._core import *  # noqa: F401,F403
 from ._core import Answer, Capability, Ellipsoid, Evaluations, Experiment, Explanation, Limit, Loss, LpAnswer, Map, Path, Polytope
-from ._core import Pose, Robot, Task, TrajectoryProof, VerifiedProof, VerifiedTrajectory
+from ._core import HeldTrajectory, Pose, Robot, Task, TrajectoryProof, VerifiedProof, VerifiedTrajectory
 from ._core import __version__
 from ._frames import from_drake, from_pinocchio, moved, to_drake, to_pinocchio
 from ._errors import SearchEnded
@@ -48,6 +48,7 @@ for _result in (
     Ellipsoid,
     Evaluations,
     Experiment,
+    HeldTrajectory,
     Limit,
     Loss,
     LpAnswer,

@@ -6,9 +6,18 @@
 
 #include "python/src/arrays.h"
 #include "python/src/background.h"
+#include "python/src/fields.h"
 #include "python/src/parts.h"
 
 namespace maxwrench::python {
+
+/// What Python shows of it: neither the efforts nor the samples of the experiment.
+template <class Archive>
+void fields(Archive& archive, HeldTrajectory& h) {
+  archive(static_cast<Verdict&>(h), h.answer.trajectory.knots, h.run.summary.planned,
+          h.run.summary.held, h.share, h.reading, h.first, h.simulations, h.stopped, h.seconds);
+}
+
 namespace {
 
 py::object solve_task_held(const py::object& task, long simulations, const std::string& wrench,
@@ -95,9 +104,12 @@ True
           "held", [](const HeldTrajectory& h) { return h.run.summary.held; },
           "Whether the wrench was held.")
       .def_readonly("simulations", &HeldTrajectory::simulations, "The number of experiments.")
-      .def("__repr__", [](const HeldTrajectory& h) {
-        return fmt::format("<HeldTrajectory: {}, reading {:.6g}>", to_string(h.status), h.reading);
-      });
+      .def("__repr__",
+           [](const HeldTrajectory& h) {
+             return fmt::format("<HeldTrajectory: {}, reading {:.6g}>", to_string(h.status),
+                                h.reading);
+           })
+      .def(py::pickle(&pack<HeldTrajectory>, &unpack<HeldTrajectory>));
   m.def("solve_held", &solve_task_held, py::arg("task"), py::kw_only(),
         py::arg("simulations") = 200, py::arg("wrench") = "pure", py::arg("solver") = "",
         py::arg("search") = "", py::arg("seed") = 1, py::arg("budget") = 0, py::arg("threads") = 0,

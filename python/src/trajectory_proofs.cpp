@@ -19,7 +19,7 @@ namespace maxwrench::python {
 template <class Archive>
 void fields(Archive& archive, VerifiedTrajectory& v) {
   archive(v.rejection, v.t, v.slices, v.places, v.clearance, v.version, v.problem, v.collision,
-          v.unit, v.knots, v.guaranteed, v.t_h, v.parts, v.seconds);
+          v.unit, v.knots, v.guaranteed, v.decides, v.scenarios, v.t_h, v.parts, v.seconds);
 }
 
 namespace {
@@ -37,10 +37,15 @@ template <class Archive>
 void fields(Archive& archive, PyTrajectoryProof& self) {
   TrajectoryProof& p = self.proof;
   PyAnswer answer{p.answer, self.task};
-  archive(answer, self.task, static_cast<Verdict&>(p), p.guaranteed, p.t, p.parts, p.slices,
-          p.clearance, p.seconds, self.bound);
+  archive(answer, self.task, static_cast<Verdict&>(p), p.guaranteed, p.t, p.decides, p.scenarios,
+          p.parts, p.slices, p.clearance, p.seconds, self.bound);
   archive.bytes(p.certificate);
   p.answer = std::move(answer.answer);
+}
+
+/// The name of a scenario; None without a list.
+std::optional<std::string> name_or_none(const std::string& scenario) {
+  return scenario.empty() ? std::nullopt : std::optional(scenario);
 }
 
 /// What no trajectory exceeds; NaN for tasks that have no such bound.
@@ -144,6 +149,13 @@ void add_trajectory_proofs(py::module_& m) {
       .def_property_readonly(
           "t", [](const PyTrajectoryProof& p) { return p.proof.t; },
           "The instant of the reason [s]; NaN: none.")
+      .def_property_readonly(
+          "decides", [](const PyTrajectoryProof& p) { return name_or_none(p.proof.decides); },
+          "Of a list, the scenario with the least proven factor, or the one without a proof; None "
+          "without a list.")
+      .def_property_readonly(
+          "scenarios", [](const PyTrajectoryProof& p) { return p.proof.scenarios; },
+          "The number of proven scenarios of a list; 0: there is no list.")
       .def_readonly("bound", &PyTrajectoryProof::bound,
                     "What no trajectory of the task exceeds; NaN: it was given, or there is none.")
       .def_property_readonly("gap", &PyTrajectoryProof::gap,
@@ -180,6 +192,11 @@ True
           "guaranteed", &VerifiedTrajectory::guaranteed,
           "The wrench along c that is exerted at every instant, in an impulse at its peak.")
       .def_readonly("unit", &VerifiedTrajectory::unit, "Its unit.")
+      .def_property_readonly(
+          "decides", [](const VerifiedTrajectory& v) { return name_or_none(v.decides); },
+          "Of a list, the scenario with the least factor; None without a list.")
+      .def_readonly("scenarios", &VerifiedTrajectory::scenarios,
+                    "The number of scenarios of a list; 0: there is no list.")
       .def_readonly("slices", &VerifiedTrajectory::slices,
                     "The number of slices of time that were checked.")
       .def_readonly("clearance", &VerifiedTrajectory::clearance,

@@ -144,6 +144,7 @@ def results():
         "one capability": mw.capability(np.zeros((6, 1)), [9.0], [-2.0], [2.0], "x"),
         "scale": mw.scale([[1, 1]], [-1, -1], [1, 1], [0], [4]),
         "limit": mw.evaluate(force, [0, 0]).explain().limits[0],
+        "held": mw.solve_held(motion, simulations=2, budget=300),
         "experiment": mw.simulate(mw.evaluate(force, [0, 0]), ramp=0.5, hold=0.5),
         "polytope": mw.polytope(force, [0, 0], directions=IN_PLANE),
         "ellipsoid": mw.ellipsoid(force, [0, 0], directions=IN_PLANE),

@@ -360,3 +360,18 @@ def test_a_list_in_time_is_the_least_of_its_scenarios():
     assert answer.decides == least["name"]
     assert 0 <= answer.decides_at <= 5
     assert mw.evaluate(push, push.theta_r_default).decides_at is None
+
+
+def test_a_proof_in_time_names_the_scenario_that_decides(tmp_path):
+    task = mw.load(TASKS / "turn_along_with_a_dead_thruster.toml")
+    proof = mw.certify(task, task.theta_r_default)
+    proof.save(tmp_path / "turn.cert")
+    check = mw.verify(tmp_path / "turn.cert", task=task)
+    for each in (proof, check):
+        assert "dead" in each.decides and each.scenarios == 3
+        again = pickle.loads(pickle.dumps(each))
+        assert (again.decides, again.scenarios) == (each.decides, each.scenarios)
+    assert check.verified and check.decides == proof.decides
+    push = mw.load("planar/trajectory")
+    alone = mw.certify(push, push.theta_r_default)
+    assert alone.decides is None and alone.scenarios == 0

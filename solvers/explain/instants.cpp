@@ -35,7 +35,9 @@ void explain_instants(const Answer& answer, Explanation& explanation) {
   Eigen::MatrixXd prices(robot.actuators(), blocks);
   for (Eigen::Index i = 0; i < blocks; ++i)
     prices.col(i) = effort_prices(robot, answer.program, solution, i);
-  const double least = kLeastPrice * prices.cwiseAbs().maxCoeff();
+  double most = prices.cwiseAbs().maxCoeff();
+  if (solution.kappa.size() > 0) most = std::max(most, solution.kappa.cwiseAbs().maxCoeff());
+  const double least = kLeastPrice * most;
   for (Eigen::Index i = 0; i < blocks; ++i) {
     InstantLimits at{instant_of_block(answer, i).t, {}, scenario_of_block(answer, i)};
     const auto add = [&](const LimitRate& limit) {

@@ -171,6 +171,7 @@ std::string describe_switching(Shooting& shooting, const Problem& problem, const
                                int& switches) {
   switches = 0;
   const std::vector<Eigen::VectorXd> states = shooting.sample(extremal, kSwitchingSamples);
+  if (states.empty()) return "unknown";
   CanonicalEquations& equations = shooting.equations(extremal);
   Eigen::MatrixXd s(problem.robot.actuators(), static_cast<Eigen::Index>(states.size()));
   Eigen::VectorXd z_dot;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lib/trajectory/task_of.h"
 #include "maxwrench/problem.h"
 #include "solvers/search/dp_level.h"
 #include "solvers/search/knot_starts.h"
@@ -16,6 +17,7 @@ constexpr int kParts = 32;      // of a batch; not the number of threads
 constexpr int kMostLevel = 20;  // 2^20 + 1 points
 // Of larger grids, the values of pairs would take gigabytes.
 constexpr double kMostGridCells = 1e6, kMostPairs = 4e6;
+constexpr double kMostValues = 8 * kMostPairs;  // of all knots; half a gigabyte with their order
 /// Dynamic programming over grids of control points, each with half the spacing of the one before.
 class Dp final : public Search {
  public:
@@ -27,6 +29,11 @@ class Dp final : public Search {
       throw std::invalid_argument(
           "search: got 'dp' for an objective of another program, expected "
           "that of make_trajectory_objective");
+    }
+    const Problem& problem = task_of(objective);
+    if (problem.motion && problem.motion->transfer) {
+      throw std::invalid_argument(
+          "search: got 'dp', which does not support a transfer, expected another search");
     }
     const Box box(objective);
     SearchRun run(options);
@@ -85,10 +92,6 @@ class Dp final : public Search {
     for (int part = 0; part < kParts; ++part) motions.emplace_back(source, -1);
     const InstantEvaluator& instants = motions.front().instants();
     const MotionTask& task = instants.task();
-    if (task.transfer) {
-      throw std::invalid_argument(
-          "search: got 'dp', which does not support a transfer, expected another search");
-    }
     const Limits limits(instants);
     const long per_evaluation = instants.maps().instants();
     long over = 0;  // instants that no evaluation has counted yet
@@ -102,11 +105,13 @@ class Dp final : public Search {
     for (int level = first_level(limits, motions.front().knots(), left()); level <= kMostLevel;
          ++level) {
       const ControlGrid::Size size = limits.size(level);
-      const bool fits = size.pairs <= std::min(static_cast<double>(left()), kMostPairs);
+      const bool fits = size.pairs <= std::min(static_cast<double>(left()), kMostPairs) &&
+                        size.pairs * motions.front().knots() <= kMostValues;
       if (!fits || size.cells > kMostGridCells) return describe(done, Limits::points(level));
       const ControlGrid grid(limits.lower, limits.upper, Limits::points(level), limits.step,
                              limits.given);
       for (const int peak : peaks(task)) {
+        if (probe.left() <= 1) return kBudgetSpent;
         for (DpMotion& motion : motions) motion.set_peak(peak);
         DpLevel dp(grid, motions, options.threads, run, spend);
         const DpLevel::Result best = dp.solve(probe.found().best.value, left());
@@ -149,8 +154,9 @@ class Dp final : public Search {
   static std::string describe(int done, int next) {
     if (done == 0) return fmt::format("a grid of {} points takes more evaluations or memory", next);
     return fmt::format(
-        "best of a grid of {} points for each coordinate; {} take more evaluations or memory", done,
-        next);
+        "best spline of a grid of {} points for each coordinate, without effort rates or thruster "
+        "lag; {} take more evaluations or memory",
+        done, next);
   }
 };
 

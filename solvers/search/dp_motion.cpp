@@ -23,7 +23,7 @@ void DpMotion::begin(long allowed, SearchRun& run) {
 }
 
 double DpMotion::value(int instant, bool at_knot, double above) {
-  if (stopped_ || made_ == allowed_ || (made_ > 0 && made_ % asks_every_ == 0 && run_->ended())) {
+  if (stopped_ || made_ >= allowed_ || (made_ > 0 && made_ % asks_every_ == 0 && run_->ended())) {
     stopped_ = true;
     return -kInfinity;
   }

@@ -16,6 +16,7 @@ constexpr std::size_t kClimbs = 4;
 constexpr long kMostOfClimb = 400;  // evaluations
 constexpr double kPlanRetreats[] = {0.9, 0.75, 0.5};
 constexpr long kOfPlan = 2 * (1 + std::size(kPlanRetreats));  // evaluations, of both plans
+constexpr long kLeastBudget = 1 + 2 * kOfPlan;                // of one climb, after one drawn table
 
 /// Throws std::invalid_argument if the objective is not that of a transfer.
 TrajectoryObjective& require_transfer_objective(Objective& objective) {
@@ -49,12 +50,20 @@ class Pontryagin final : public Search {
     CanonicalEquations check_limits(problem);
     SearchRun run(options);
     Part found;
-    std::vector<Candidate> starts = draw_knot_starts(objective, options, run, found);
     const Eigen::VectorXd first = Box(objective).start(options.start);
+    const bool fixed = objective.dimension() == 0;
+    if (fixed || options.budget < kLeastBudget) {  // only the start
+      Probe probe(objective, options.budget, run);
+      probe.evaluate(first);
+      found = probe.take();
+      SearchResult result = make_result(found, run);
+      result.stopped = fixed ? "there is nothing to choose" : "the budget is too small for a climb";
+      return result;
+    }
+    std::vector<Candidate> starts = draw_knot_starts(objective, options, run, found);
     std::erase_if(starts, [&](const Candidate& start) { return start.theta_r == first; });
     starts.insert(starts.begin(), Candidate{first, 0});
     if (starts.size() > kClimbs) starts.resize(kClimbs);
-    if (objective.dimension() == 0) starts.clear();
     const long left = options.budget - found.trace.evaluations();
     while (!starts.empty() && left / static_cast<long>(starts.size()) < 2 * kOfPlan) {
       starts.pop_back();

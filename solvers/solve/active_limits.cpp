@@ -139,6 +139,12 @@ std::string dearest_efforts(const Answer& answer) {
           std::abs(prices[j]) * (set.u_max[j] - set.u_min[j]);
     }
   }
+  const Eigen::MatrixXd& kappa = answer.trajectory.solution.kappa;
+  for (Eigen::Index j = 0; j < kappa.rows(); ++j) {
+    const double price = kappa.row(j).cwiseAbs().sum();
+    if (price < 1e-9) continue;
+    limits[static_cast<std::size_t>(j)].worth += price * (set.u_max[j] - set.u_min[j]);
+  }
   return describe(dearest_first(std::move(limits)));
 }
 

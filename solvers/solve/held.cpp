@@ -4,6 +4,8 @@
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -79,11 +81,38 @@ Eigen::MatrixXd free_moves(const KnotRows& rows, Eigen::Index size) {
   return split(E.transpose(), 1e-9).complement;
 }
 
+/// The point with the largest reading that was held, and its experiment. The lesser point of two
+/// that are equal, so the threads do not matter.
+class BestRun {
+ public:
+  void offer(const Eigen::VectorXd& x, double reading, const TankRun& run) {
+    const std::scoped_lock lock(mutex_);
+    if (reading < reading_ || reading == -kInfinity) return;
+    if (reading == reading_ &&
+        !std::lexicographical_compare(x.begin(), x.end(), x_.begin(), x_.end()))
+      return;
+    x_ = x;
+    reading_ = reading;
+    run_ = run;
+  }
+  const Eigen::VectorXd& x() const { return x_; }
+  double reading() const { return reading_; }
+  const TankRun& run() const { return run_; }
+
+ private:
+  std::mutex mutex_;
+  Eigen::VectorXd x_;
+  double reading_ = -kInfinity;
+  TankRun run_;
+};
+
 /// The reading over x = (moves z of the knots, share), knots = first + Z z.
 class HeldObjective final : public Objective {
  public:
-  HeldObjective(const Experimenter& experimenter, Eigen::VectorXd first)
+  HeldObjective(const Experimenter& experimenter, Eigen::VectorXd first,
+                std::shared_ptr<BestRun> best)
       : experimenter_(experimenter),
+        best_(std::move(best)),
         evaluator_(experimenter.task, experimenter.method.choice.wrench,
                    experimenter.method.trajectory_solver->make),
         first_(std::move(first)),
@@ -108,6 +137,7 @@ class HeldObjective final : public Objective {
     const double reading = held_reading(run);
     if (reading > -kInfinity) {
       verdict_.conclude(Status::kOptimal);
+      best_->offer(x, reading, run);
     } else if (run.status == Status::kReached) {
       verdict_.conclude(Status::kInfeasible, run.summary.missed);
     }
@@ -115,21 +145,23 @@ class HeldObjective final : public Objective {
   }
 
   std::unique_ptr<Objective> clone() const override {
-    return std::make_unique<HeldObjective>(experimenter_, first_);
+    return std::make_unique<HeldObjective>(experimenter_, first_, best_);
   }
 
  private:
   const Experimenter experimenter_;
+  const std::shared_ptr<BestRun> best_;  // of all clones
   TrajectoryEvaluator evaluator_;
   Eigen::VectorXd first_, lower_, upper_;
   Eigen::MatrixXd Z_;
   Verdict verdict_;
 };
 
-/// A trajectory with the share that is held.
+/// A trajectory with the share that is held, and its experiment.
 struct First {
   Eigen::VectorXd knots;
   double share = 1, reading = -kInfinity;
+  TankRun run = {};
 };
 
 void require_supported(const Problem& task, const Options& options, const HeldOptions& how) {
@@ -175,20 +207,26 @@ class HeldSearch {
     held.conclude(Status::kNoneFound, "no experiment was held");
     TrajectoryEvaluator evaluator(task_, method.choice.wrench, method.trajectory_solver->make);
     First best;
+    Options quiet = options_;  // the progress is that of the experiments
+    quiet.progress = {};
     for (const Problem* planned : {&std::as_const(task_), &plain_}) {
       if (planned == &plain_ && plain_.motion->thruster_lag == task_.motion->thruster_lag) break;
-      const Answer plan = solve(*planned, options_);
+      const Answer plan = solve(*planned, quiet);
       if (!plan.has_posture()) continue;
-      const First first = try_shares(experimenter, evaluator, stacked(plan.trajectory.knots), held);
-      if (best.knots.size() == 0 || first.reading > best.reading) best = first;
+      First first = try_shares(experimenter, evaluator, stacked(plan.trajectory.knots), held);
+      if (best.knots.size() == 0 || first.reading > best.reading) best = std::move(first);
     }
     if (best.reading > -kInfinity) {
       held.first = best.reading;
       raise_share(experimenter, evaluator, best, held);
       improve(experimenter, best, held);
-      report(experimenter, evaluator, best, held);
+      report(evaluator, best, held);
     }
-    if (interrupted()) held.conclude(Status::kBudgetExhausted, "interrupted");
+    if (interrupted()) {
+      held.stopped = "interrupted";
+      held.answer.stopped = held.stopped;
+      held.conclude(Status::kBudgetExhausted, held.stopped);
+    }
     held.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return held;
   }
@@ -196,15 +234,20 @@ class HeldSearch {
  private:
   bool interrupted() const { return options_.interrupted && options_.interrupted(); }
 
+  void count(HeldTrajectory& held) const {
+    ++held.simulations;
+    if (options_.progress) options_.progress(held.simulations);
+  }
+
   First try_shares(const Experimenter& experimenter, TrajectoryEvaluator& evaluator,
                    const Eigen::VectorXd& knots, HeldTrajectory& held) const {
     First first{knots};
     for (const double share : kFirstShares) {
       if (held.simulations == how_.simulations || interrupted()) break;
-      ++held.simulations;
-      const TankRun run = experimenter.run(evaluator, unstacked(knots, evaluator.knots()), share);
+      first.run = experimenter.run(evaluator, unstacked(knots, evaluator.knots()), share);
+      count(held);
       first.share = share;
-      first.reading = held_reading(run);
+      first.reading = held_reading(first.run);
       if (first.reading > -kInfinity) break;
     }
     return first;
@@ -216,13 +259,18 @@ class HeldSearch {
     const Eigen::MatrixXd knots = unstacked(best.knots, evaluator.knots());
     for (double rise = kFirstRise; rise >= kLastRise;) {
       const double share = best.share + rise;
+      if (share > kMostShare) {
+        rise /= 2;
+        continue;
+      }
       if (held.simulations == how_.simulations || interrupted()) return;
-      ++held.simulations;
-      const double reading =
-          share > kMostShare ? -kInfinity : held_reading(experimenter.run(evaluator, knots, share));
+      TankRun run = experimenter.run(evaluator, knots, share);
+      count(held);
+      const double reading = held_reading(run);
       if (reading > best.reading) {
         best.share = share;
         best.reading = reading;
+        best.run = std::move(run);
       } else {
         rise /= 2;
       }
@@ -235,36 +283,40 @@ class HeldSearch {
     search.budget = how_.simulations - held.simulations;
     held.stopped = kBudgetSpent;
     if (search.budget < 1) return;
-    HeldObjective objective(experimenter, best.knots);
+    const auto found = std::make_shared<BestRun>();
+    HeldObjective objective(experimenter, best.knots, found);
     Eigen::VectorXd x = Eigen::VectorXd::Zero(objective.dimension());
     x.tail<1>().setConstant(best.share);
     search.seed = options_.seed;
     search.threads = thread_count(options_.threads);
     search.start = x;
     search.starts = {{x, best.reading}};
-    search.progress = options_.progress;
+    if (options_.progress) {
+      search.progress = [this, before = held.simulations](long evaluations) {
+        options_.progress(before + evaluations);
+      };
+    }
     search.interrupted = options_.interrupted;
     const SearchResult result = find_search(kUpperSearch).make()->maximize(objective, search);
     held.simulations += result.evaluations;
     held.stopped = result.stopped.empty() ? kBudgetSpent : result.stopped;
-    if (!(result.value > best.reading)) return;
-    best = {stacked(objective.knots(result.theta_r)), result.theta_r.tail<1>()[0], result.value};
+    if (!(found->reading() > best.reading)) return;
+    const Eigen::VectorXd& best_x = found->x();
+    best = {stacked(objective.knots(best_x)), best_x.tail<1>()[0], found->reading(), found->run()};
   }
 
-  /// Evaluates the trajectory and runs its experiment again.
-  void report(const Experimenter& experimenter, TrajectoryEvaluator& evaluator, const First& best,
-              HeldTrajectory& held) const {
+  /// Evaluates the trajectory, also after an interruption.
+  void report(const TrajectoryEvaluator& evaluator, First& best, HeldTrajectory& held) const {
     const Eigen::MatrixXd knots = unstacked(best.knots, evaluator.knots());
     Options how = options_;
     how.search.clear();
+    how.interrupted = {};
     held.answer = evaluate(task_, knots, how);
-    held.run = experimenter.run(evaluator, knots, best.share);
+    held.run = std::move(best.run);
     held.share = best.share;
-    held.reading = reading_of(held.run.summary);
-    if (held.run.summary.held) {
-      held.conclude(Status::kBestFound);
-      held.answer.conclude(Status::kBestFound);
-    }
+    held.reading = best.reading;
+    held.conclude(Status::kBestFound);
+    held.answer.conclude(Status::kBestFound);
     held.answer.evaluations = held.simulations;
     held.answer.stopped = held.stopped;
   }

@@ -21,11 +21,17 @@ namespace {
                               " for the virtual tank");
 }
 
-/// Whether an actuator of the limits is stronger than the robot's own: a brake.
-bool has_brake(const Problem& problem, const ScenarioLimits& limits) {
-  const Zonotope& own = problem.robot.actuation;
-  return (limits.actuation.u_max.array() > own.u_max.array()).any() ||
-         (limits.actuation.u_min.array() < own.u_min.array()).any();
+/// Whether an actuator of the limits has a brake or friction. Those of the first limits are all
+/// driven. Others are lost with limits of 0, or as weak as they may be, on one side of 0.
+bool resists(const ScenarioLimits& limits, const ScenarioLimits& driven) {
+  for (Eigen::Index i = 0; i < limits.actuation.u_max.size(); ++i) {
+    const double low = limits.actuation.u_min[i], high = limits.actuation.u_max[i];
+    if (low < 0 && high > 0 &&
+        (low != driven.actuation.u_min[i] || high != driven.actuation.u_max[i])) {
+      return true;
+    }
+  }
+  return false;
 }
 
 /// The scenarios that the tank carries out. Where actuators die, all of them work at first.
@@ -130,8 +136,9 @@ void require_tank_scenarios(const Problem& problem) {
     throw_untankable(problem, "loads that are uncertain or in a current", "the nominal robot");
   }
   for (const ScenarioLimits& limits : list.limits) {
-    if (has_brake(problem, limits)) {
-      throw_untankable(problem, "a joint that is locked", "limp joints");
+    if (resists(limits, list.limits.front())) {
+      throw_untankable(problem, "a joint that is locked or has friction",
+                       "limp joints without friction");
     }
   }
   for (const ScenarioWrench& each : list.wrenches) {

@@ -189,6 +189,8 @@ TEST(BadScenariosInTime, AreRejected) {
     expect("[motion]", "[loss]\nany = 0\n\n[motion]", "loss.any: got 0", "a whole number from 1");
     expect("[motion]", "[loss]\ncases = [[\"q3_elbow\"]]\njoints = \"locked\"\n\n[motion]",
            "loss.joints: got 'locked'", "'limp' in tasks in time");
+    expect("[motion]", "[loss]\ncases = [[\"q3_elbow\"]]\nfriction = 0.5\n\n[motion]",
+           "loss.friction: got 0.5", "0 in tasks in time");
     expect(kC, "ball = { axes = [\"fx\"], radius = 1 }", "wrench.ball: got a table",
            "no such key except in static tasks");
     expect(kC, "set = [[0,0,0,0,0,0]]", "wrench.set[0]", "a wrench of nonzero length");

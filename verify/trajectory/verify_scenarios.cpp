@@ -8,11 +8,14 @@
 namespace maxwrench {
 namespace {
 
+/// The number of certificates that a task needs.
+std::size_t certificate_count(const Problem& problem) {
+  return problem.scenarios.empty() ? 1 : static_cast<std::size_t>(scenario_count(problem));
+}
+
 /// Empty, or why the certificates are not those of one trajectory of the list.
 std::string reject_list(const Problem& problem, const std::vector<TrajectoryCertificate>& proofs) {
-  const std::size_t count =
-      problem.scenarios.empty() ? 1 : static_cast<std::size_t>(scenario_count(problem));
-  if (proofs.size() != count) return "it is for another robot or task";
+  if (proofs.size() != certificate_count(problem)) return "it is for another robot or task";
   for (const TrajectoryCertificate& each : proofs) {
     if (each.collision != proofs[0].collision || each.t_h != proofs[0].t_h ||
         each.knots.rows() != proofs[0].knots.rows() ||
@@ -24,17 +27,34 @@ std::string reject_list(const Problem& problem, const std::vector<TrajectoryCert
   return "";
 }
 
+/// What all certificates together claim, whether it is true or not; NaN if their number is wrong.
+void read_claim(const Problem& problem, const std::vector<TrajectoryCertificate>& proofs,
+                TaskVerification& result) {
+  result.guaranteed = std::numeric_limits<double>::quiet_NaN();
+  if (proofs.size() != certificate_count(problem)) return;
+  if (problem.scenarios.empty()) {
+    result.guaranteed = proofs[0].value;
+    return;
+  }
+  for (std::size_t i = 0; i < proofs.size(); ++i) {
+    const ScenarioTask one = scenario_task(problem, static_cast<int>(i));
+    const double factor = least_factor(proofs[i].value, one.length);
+    if (result.guaranteed <= factor) continue;
+    result.guaranteed = factor;
+    result.decides = one.name;
+  }
+}
+
 }  // namespace
 
 TaskVerification verify(const Problem& problem, const std::vector<TrajectoryCertificate>& proofs,
                         int threads) {
   require_provable_task(problem);
   TaskVerification result;
-  result.guaranteed = kInfinity;
+  read_claim(problem, proofs, result);
   result.rejection = reject_list(problem, proofs);
   if (problem.scenarios.empty() && result.rejection.empty()) {
     static_cast<TrajectoryVerification&>(result) = verify(problem, proofs[0], threads);
-    result.guaranteed = proofs[0].value;
     return result;
   }
   for (std::size_t i = 0; i < proofs.size() && result.rejection.empty(); ++i) {
@@ -46,11 +66,6 @@ TaskVerification verify(const Problem& problem, const std::vector<TrajectoryCert
     if (!each.verified()) {
       result.rejection = one.name + ": " + each.rejection;
       result.t = each.t;
-    }
-    const double factor = least_factor(proofs[i].value, one.length);
-    if (factor < result.guaranteed) {
-      result.guaranteed = factor;
-      result.decides = one.name;
     }
   }
   return result;

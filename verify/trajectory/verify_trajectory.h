@@ -28,8 +28,9 @@ TrajectoryVerification verify(const Problem& problem, const TrajectoryCertificat
 
 /// The check of certificates of a task, which may have a list of scenarios.
 struct TaskVerification : TrajectoryVerification {
-  double guaranteed = 0;  ///< what all certificates claim [unit of the task]
-  std::string decides;    ///< the scenario with the least claim; "" if there is no list
+  /// What all certificates claim [unit of the task]; NaN if their number is not that of the task.
+  double guaranteed = 0;
+  std::string decides;  ///< the scenario with the least claim; "" if there is no list
 };
 
 /// Checks certificates of one trajectory: one of each scenario of the list, in the order of

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 #include <vector>
@@ -102,14 +103,15 @@ class PlanBounder {
  public:
   PlanBounder(const Problem& problem, double value, const CertifyOptions& options,
               PlanBound& result)
-      : value_(value), options_(options), result_(result), start_(PlanClock::now()) {
-    const SchemeMaps maps = make_scheme(*problem.motion);
-    all_count_ = problem.motion->impulse;
-    for (const int instant : instants_of(*problem.motion, maps)) {
-      looks_.push_back({instant_of(problem, maps, instant),
-                        maps.t[static_cast<std::size_t>(instant)],
-                        {},
-                        kInfinity});
+      : problem_(problem),
+        value_(value),
+        options_(options),
+        result_(result),
+        start_(PlanClock::now()),
+        maps_(make_scheme(*problem.motion)),
+        all_count_(problem.motion->impulse) {
+    for (const int instant : instants_of(*problem.motion, maps_)) {
+      looks_.push_back({.instant = instant, .t = maps_.t[static_cast<std::size_t>(instant)]});
     }
   }
 
@@ -134,30 +136,35 @@ class PlanBounder {
     const Look& deciding = all_count_ ? *std::max_element(looks_.begin(), looks_.end(), below)
                                       : *std::min_element(looks_.begin(), looks_.end(), below);
     result_.bound = deciding.bound;
-    result_.t = deciding.t;
+    if (deciding.bound < kInfinity) result_.t = deciding.t;
     result_.allowed = deciding.best.value;
     result_.seconds = seconds_since(start_);
-    conclude();
+    conclude(deciding.how);
   }
 
  private:
   struct Look {
-    PlanInstant at;
+    int instant;
     double t;
-    Candidate best;  ///< of the relaxation
-    double bound;
+    std::optional<PlanInstant> at = {};  ///< made by the first look: its ranges take time
+    Candidate best = {};                 ///< of the relaxation
+    double bound = kInfinity;            ///< also of an instant that was skipped
+    Verdict how = {};                    ///< how the last look ended
   };
+
+  bool is_interrupted() const { return options_.interrupted && options_.interrupted(); }
+  bool is_over(double until) const { return seconds_since(start_) > until || is_interrupted(); }
 
   /// Looks for a good motion at an instant: random ones, then steps from the best, which grow and
   /// shrink with their success.
-  static void look_around(Look& look, Objective& objective) {
+  void look_around(Look& look, Objective& objective, double until) const {
     constexpr int kAtRandom = 600, kSteps = 1200;
     constexpr double kLarge = 0.2, kGrow = 1.5, kShrink = 0.98;
     Random random(1);
     const Eigen::VectorXd width = objective.upper() - objective.lower();
     double step = kLarge;
     Eigen::VectorXd x;
-    for (int i = 0; i < kAtRandom + kSteps; ++i) {
+    for (int i = 0; i < kAtRandom + kSteps && !is_over(until); ++i) {
       const bool near = i >= kAtRandom && std::isfinite(look.best.value);
       x = near ? look.best.theta_r : (objective.lower() + objective.upper()) / 2;
       for (Eigen::Index k = 0; k < x.size(); ++k) {
@@ -171,11 +178,18 @@ class PlanBounder {
     }
   }
 
-  /// Bounds one instant until a time since the start. A later look begins anew.
+  /// Bounds one instant until a time since the start, or skips it if that is over. A later look
+  /// begins anew.
   void bound_one(Look& look, long boxes, double until) {
-    const auto bound = make_instant_bound(look.at);
-    const auto objective = make_instant_objective(look.at);
-    if (boxes > kFirstBoxes) look_around(look, *objective);
+    if (is_over(until)) {
+      if (look.how.status == Status::kProven) return;
+      look.how.conclude(Status::kBracket, is_interrupted() ? "interrupted" : "the time ran out");
+      return;
+    }
+    if (!look.at) look.at = instant_of(problem_, maps_, look.instant);
+    const auto bound = make_instant_bound(*look.at);
+    const auto objective = make_instant_objective(*look.at);
+    if (boxes > kFirstBoxes) look_around(look, *objective, until);
     CertifyOptions own = options_;
     own.gap = std::min(options_.gap, kInstantGap);
     own.boxes = boxes;
@@ -183,21 +197,23 @@ class PlanBounder {
     // Bounds below the value of a known trajectory are impossible.
     Candidate known = look.best;
     if (value_ > known.value) {
-      known = {(look.at.lower() + look.at.upper()) / 2, value_};
+      known = {(look.at->lower() + look.at->upper()) / 2, value_};
     }
     const CertifyResult result = certify(*objective, *bound, known, own);
     result_.boxes += result.boxes;
     look.bound = std::min(look.bound, result.bound);
     if (result.best.value > value_) look.best = result.best;
-    last_ = result;
+    look.how.conclude(result.status, result.reason.str());
   }
 
-  void conclude() {
+  void conclude(const Verdict& how) {
     const bool known = std::isfinite(value_);
-    if (known && result_.gap() <= options_.gap * (1 + 1e-6)) {
+    if (result_.bound == -kInfinity) {
+      result_.conclude(Status::kInfeasible, "no trajectory has a value");
+    } else if (known && result_.gap() <= options_.gap * (1 + 1e-6)) {
       result_.conclude(Status::kProven);
-    } else if (last_.status != Status::kProven && result_.bound > result_.allowed * (1 + 1e-2)) {
-      result_.conclude(Status::kBracket, last_.reason.str());
+    } else if (how.status != Status::kProven && result_.bound > result_.allowed * (1 + 1e-2)) {
+      result_.conclude(Status::kBracket, how.reason.str());
     } else {
       result_.conclude(Status::kBracket, fmt::format("the instant alone allows {:.5g}, whatever "
                                                      "happens before and after",
@@ -205,13 +221,14 @@ class PlanBounder {
     }
   }
 
+  const Problem& problem_;
   double value_;
   const CertifyOptions& options_;
   PlanBound& result_;
   PlanClock::time_point start_;
-  bool all_count_ = false;
+  SchemeMaps maps_;
+  bool all_count_;
   std::vector<Look> looks_;
-  CertifyResult last_;
 };
 
 }  // namespace
@@ -241,7 +258,9 @@ PlanBound bound_trajectories(const Problem& task, const Options& options, const 
   const double value = result.answer.has_value() ? result.answer.beta() : -kInfinity;
   if (how.progress) limits.progress = how.progress;
   PlanBounder(own, value, limits, result).run();
-  if (!result.answer.has_value()) static_cast<Verdict&>(result) = result.answer;
+  if (!result.answer.has_value() && result.status != Status::kInfeasible) {
+    static_cast<Verdict&>(result) = result.answer;
+  }
   return result;
 }
 

@@ -113,6 +113,8 @@ INSTANTIATE_TEST_SUITE_P(
                        "--worth: got tank for planar/force, a static task"},
         BadMotionWords{"solve planar/trajectory --worth boat", "boat"},
         BadMotionWords{"solve planar/trajectory --worth tank --simulations 0", "--simulations"},
+        BadMotionWords{"solve planar/trajectory --worth plan --simulations 5",
+                       "--simulations: got 5"},
         BadMotionWords{"solve planar/trajectory --worth tank --measure ellipsoid",
                        "measure: got ellipsoid"},
         BadMotionWords{"eval uvms/valve_trajectory --measure ellipsoid",

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "lib/tank/summary.h"
 #include "maxwrench/load.h"
 #include "maxwrench/scenario.h"
 #include "maxwrench/solve.h"
@@ -95,6 +96,79 @@ TEST(TankDeath, OnlyTheHoldCounts) {
   const TankRun run = simulate_posture(answer, 29, "cvode", options);
   EXPECT_TRUE(run.summary.held) << run.summary.missed;
   EXPECT_FALSE(run.summary.after);
+}
+
+constexpr double kSamplePeriod = 0.1;
+
+/// A run to `end` with a reading that is a function of time.
+template <class Reading>
+TankRun run_reading(const Problem& problem, double end, const Reading& reading) {
+  TankRun run;
+  for (int k = 1; k * kSamplePeriod <= end + kSamplePeriod / 2; ++k) {
+    TankSample sample;
+    sample.t = k * kSamplePeriod;
+    sample.reading = reading(sample.t);
+    sample.h_e = sample.reading * problem.c;
+    run.samples.push_back(sample);
+  }
+  run.conclude(Status::kReached);
+  return run;
+}
+
+/// The summary of a hold of 10 N from 5 s to 15 s, with these deaths.
+template <class Reading>
+TankSummary hold_with_deaths(const std::vector<ActuatorDeath>& deaths, const Reading& reading) {
+  const Problem problem = load_problem("planar/force");
+  TankOptions options;
+  options.period = kSamplePeriod;
+  options.ramp = 5;
+  options.hold = 10;
+  options.deaths = deaths;
+  const TargetWrench target{10 * problem.c, {}, Wrench::kPure, 10};
+  return summarise(problem, target, options, run_reading(problem, 20, reading), false);
+}
+
+TEST(TankDeath, OneAfterTheHoldHidesNoEarlierOne) {
+  const auto reading = [](double t) { return t > 14 ? 9.4 : 10; };
+  const TankSummary alone = hold_with_deaths({{0, 9}}, reading);
+  const TankSummary both = hold_with_deaths({{0, 9}, {1, 17}}, reading);
+  EXPECT_FALSE(alone.held);
+  EXPECT_THAT(alone.missed, HasSubstr("reading after the last failure"));
+  EXPECT_EQ(both.missed, alone.missed);
+  ASSERT_TRUE(both.after);
+  EXPECT_EQ(both.after->t, 9);
+}
+
+/// The ramp has ended at 5 s.
+TEST(TankDeath, TheRampDoesNotCount) {
+  const TankSummary summary =
+      hold_with_deaths({{0, 0}}, [](double t) { return std::min(10.0, 2 * t); });
+  EXPECT_TRUE(summary.held) << summary.missed;
+  ASSERT_TRUE(summary.after);
+  EXPECT_NEAR(summary.after->mean, 10, 1e-9);
+  EXPECT_NEAR(summary.after->low, 10, 1e-9);
+}
+
+/// An impulse with its peak at 1 s, in which the reading falls as soon as an actuator fails.
+TEST(TankDeath, AnImpulseWithItsPeakInTheTransientIsNotHeld) {
+  const Problem problem = load_problem("planar/force");
+  TankScript script;
+  script.planned = 10;
+  script.t_h = 1;
+  TankOptions options;
+  options.period = kSamplePeriod;
+  for (const double dies : {0.0, 0.9}) {
+    options.deaths = {{0, dies}};
+    const TankRun run = run_reading(problem, 2, [&](double t) { return t > dies + 0.01 ? 3 : 10; });
+    const TankSummary summary = summarise(script, options, run, false);
+    EXPECT_FALSE(summary.held) << dies;
+    EXPECT_EQ(summary.missed, "the peak is in the transient of a failure");
+    EXPECT_EQ(summary.motion->at_peak, 3);
+    EXPECT_TRUE(std::isfinite(summary.low) && std::isfinite(summary.mean));
+  }
+  options.deaths = {{0, 1.5}};
+  const TankRun later = run_reading(problem, 2, [](double) { return 10; });
+  EXPECT_TRUE(summarise(script, options, later, false).held);
 }
 
 TEST(TankDeath, RejectsWhatCannotDie) {

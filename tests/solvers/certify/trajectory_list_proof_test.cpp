@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 #include <functional>
 
@@ -101,6 +102,22 @@ TEST(TrajectoryListProof, RejectsWhatIsNotAProofOfTheList) {
   EXPECT_NE(verify(alone, claims, 2).rejection, "");
   Claims one(1, claims[0]);
   EXPECT_NE(verify(alone, one, 2).rejection, "");  // of the list, not of the shipped task
+}
+
+/// The claim is the least of all certificates, also of those after the first that is false.
+TEST(TrajectoryListProof, ARejectedClaimIsThatOfAllScenarios) {
+  const auto& [problem, proof, claims] = list_proof();
+  for (std::size_t i = 0; i < claims.size(); ++i) {
+    auto changed = claims;
+    changed[i].digest ^= 1;
+    const TaskVerification check = verify(problem, changed, 2);
+    EXPECT_NE(check.rejection, "") << i;
+    EXPECT_EQ(check.guaranteed, proof.guaranteed) << i;
+    EXPECT_EQ(check.decides, proof.decides) << i;
+  }
+  const TaskVerification other = verify(load_problem("uvms/valve_trajectory"), claims, 2);
+  EXPECT_TRUE(std::isnan(other.guaranteed));
+  EXPECT_EQ(other.decides, "");
 }
 
 /// Wrenches keep their lengths: twice the wrench has half the factor.

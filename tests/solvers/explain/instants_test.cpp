@@ -5,6 +5,9 @@
 
 #include "maxwrench/load.h"
 #include "maxwrench/solve.h"
+#include "solvers/explain/parts.h"
+#include "solvers/solve/active_limits.h"
+#include "solvers/solve/format.h"
 #include "tests/support/changed_limits.h"
 #include "tests/support/support.h"
 
@@ -49,6 +52,26 @@ TEST_P(InstantsOf, RatesAddUpToTheDerivativeOfTheValue) {
     EXPECT_GE(rate, least - 1e-4 * (1 + std::abs(least))) << which.first;
     EXPECT_LE(rate, most + 1e-4 * (1 + std::abs(most))) << which.first;
   }
+}
+
+/// The limits of commands count like others, also if no effort has a price.
+TEST(InstantsOfALag, MultipliersOfCommandsCount) {
+  const Problem task = load_problem("planar/trajectory");
+  Answer answer = evaluate(task, constant_knots(task, task.theta_r_default));
+  ASSERT_TRUE(answer.has_value()) << answer.reason.c_str();
+  TrajectorySolution& solution = answer.trajectory.solution;
+  solution.lambda.setZero();
+  solution.mu.setZero();
+  solution.kappa.setZero(task.robot.actuators(), solution.lambda.cols() - 1);
+  solution.kappa(0, 0) = 1e-9;  // rounding
+  solution.kappa(1, 0) = 1;
+  const std::string name = actuator_name(task.robot, 1);
+  EXPECT_EQ(dearest_efforts(answer), name);
+  Explanation explanation;
+  explain_instants(answer, explanation);
+  ASSERT_EQ(explanation.instants.size(), 1U);
+  ASSERT_EQ(explanation.instants[0].limits.size(), 1U);
+  EXPECT_EQ(explanation.instants[0].limits[0].name, "command of " + name);
 }
 
 }  // namespace

@@ -251,6 +251,17 @@ TEST(Dp, OneEvaluationIsTheStart) {
   }
 }
 
+/// An open peak is tried at each knot: the grids of all share the budget.
+TEST(Dp, AnOpenPeakKeepsToTheBudget) {
+  Problem problem = load_problem("uvms/lift_impulse");
+  problem.motion->t_h = 0;
+  const auto objective = dp_objective(problem);
+  for (const long budget : {60, 200, 400}) {
+    const SearchResult result = make_dp()->maximize(*objective, dp_options(problem, budget));
+    EXPECT_LE(result.evaluations, budget);
+  }
+}
+
 /// A start without a value is no obstacle: the grid has plans that have one.
 TEST(Dp, DoesNotNeedAStartWithAValue) {
   Problem problem = load_problem("planar/trajectory");
@@ -301,7 +312,10 @@ TEST(Dp, RefusesATransfer) {
   EXPECT_EQ(std::count(names.begin(), names.end(), "dp"), 0);
   EXPECT_EQ(std::count(names.begin(), names.end(), "slp"), 1);
   const auto objective = dp_objective(problem);
-  EXPECT_THROW(make_dp()->maximize(*objective, dp_options(problem, 50)), std::invalid_argument);
+  for (const long budget : {1L, 2L, 50L}) {
+    EXPECT_THROW(make_dp()->maximize(*objective, dp_options(problem, budget)),
+                 std::invalid_argument);
+  }
 }
 
 /// slp continues from its plan.

@@ -44,6 +44,7 @@ TEST(PontryaginSearch, StaysWithinSmallBudgets) {
     const Answer answer = found_by(problem, budget, 1);
     EXPECT_LE(answer.evaluations, budget);
     EXPECT_GE(answer.evaluations, 1);
+    EXPECT_TRUE(answer.has_value()) << budget;  // that of the straight line at least
   }
 }
 

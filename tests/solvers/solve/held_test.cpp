@@ -61,6 +61,22 @@ TEST(SolveHeld, AnInterruptionEndsItEarly) {
   EXPECT_LE(held.simulations, 1);
 }
 
+/// An interruption after the first experiments keeps the best of them.
+TEST(SolveHeld, AnInterruptionKeepsWhatIsHeld) {
+  const Problem task = load_problem("planar/trajectory");
+  Options options = few_evaluations();
+  long done = 0;
+  options.progress = [&](long simulations) { done = simulations; };
+  options.interrupted = [&] { return done >= 3; };
+  const HeldTrajectory held = solve_held(task, options, {});
+  EXPECT_EQ(held.status, Status::kBudgetExhausted);
+  EXPECT_EQ(held.stopped, "interrupted");
+  EXPECT_EQ(held.simulations, 3);
+  EXPECT_TRUE(held.run.summary.held);
+  EXPECT_GE(held.reading, held.first);
+  EXPECT_TRUE(held.answer.has_posture());
+}
+
 TEST(SolveHeld, RejectsWhatTheTankDoesNotSupport) {
   const auto rejects = [](const char* name, const HeldOptions& how, const char* words,
                           Options options = few_evaluations()) {

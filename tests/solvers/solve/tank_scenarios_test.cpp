@@ -149,6 +149,14 @@ TEST(TankScenarios, RejectsWhatTheTankCannotBe) {
   brake = with_limits(brake, -Eigen::VectorXd::Constant(brake.u_min.size(), 1e4),
                       Eigen::VectorXd::Constant(brake.u_min.size(), 1e4));
   EXPECT_THAT(rejection_of([&] { require_tank_scenarios(locked); }), HasSubstr("locked"));
+  // A brake or friction that is weaker than the drive.
+  Problem resisting = load_problem(example("lift_with_a_dead_thruster"));
+  Zonotope& left = resisting.scenarios.limits[1].actuation;
+  Eigen::VectorXd low = left.u_min, high = left.u_max;
+  low.tail<1>()[0] = -0.5;
+  high.tail<1>()[0] = 0.5;
+  left = with_limits(left, low, high);
+  EXPECT_THAT(rejection_of([&] { require_tank_scenarios(resisting); }), HasSubstr("has friction"));
 }
 
 }  // namespace

@@ -227,6 +227,7 @@ TEST(InstantRanges, HoldRandomTables) {
   Random random(13);
   std::vector<InstantRanges> ranges;
   for (int i = 0; i < maps.instants(); ++i) ranges.push_back(ranges_at(problem, maps, i));
+  int kept = 0;
   for (int table = 0; table < 200; ++table) {
     const Eigen::Index j = table % 4;
     const double V =
@@ -242,6 +243,7 @@ TEST(InstantRanges, HoldRandomTables) {
     if (place.minCoeff() < problem.theta_r_min[j] || place.maxCoeff() > problem.theta_r_max[j]) {
       continue;
     }
+    ++kept;
     for (int i = 0; i < maps.instants(); ++i) {
       const InstantRanges& at = ranges[static_cast<std::size_t>(i)];
       const auto inside = [j](const NumberRanges& range, double value) {
@@ -252,6 +254,7 @@ TEST(InstantRanges, HoldRandomTables) {
           << i;
     }
   }
+  EXPECT_GT(kept, 50);
 }
 
 }  // namespace

@@ -52,7 +52,23 @@ TEST(PlanBound, OfAnOpenPeakIsThatOfTheBestOne) {
   const PlanBound open = bound_trajectories(
       task, options, limits,
       Eigen::MatrixXd(task.theta_r_default.transpose().replicate(task.motion->k, 1)));
+  EXPECT_LT(open.bound, kInfinity);
   EXPECT_GE(open.bound, 114.5);  // that of the best known trajectory, whose peak is the third knot
+}
+
+/// What was skipped bounds nothing.
+TEST(PlanBound, OfAnInterruptedRunIsInfinite) {
+  for (const char* name : {"uvms/valve_trajectory", "uvms/lift_impulse"}) {
+    const Problem task = load_problem(name);
+    Options options;
+    options.interrupted = [] { return true; };
+    const PlanBound bound = bound_trajectories(
+        task, options, {},
+        Eigen::MatrixXd(task.theta_r_default.transpose().replicate(task.motion->k, 1)));
+    EXPECT_EQ(bound.bound, kInfinity);
+    EXPECT_EQ(bound.boxes, 0);
+    EXPECT_NE(bound.status, Status::kProven);
+  }
 }
 
 TEST(PlanBound, RejectsWhatItDoesNotSupport) {
