@@ -141,6 +141,7 @@ TEST(LagOfEfforts, TheInteriorPointMethodAgreesWithTheAssembledProgram) {
     EXPECT_TRUE(recheck(program, solution).within(1e-7 * size)) << sample;
     binding += (solution.kappa.array().abs() > 1e-6).any();
   }
+  if (kSanitized) return;  // too few samples to count kinds
   EXPECT_GT(optimal, samples(20));
   EXPECT_GT(infeasible, samples(10));
   EXPECT_GT(binding, samples(10));

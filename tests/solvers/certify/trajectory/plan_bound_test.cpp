@@ -26,8 +26,8 @@ TEST(PlanBound, SLOW_IsTheStaticOptimumWhereTheSchemeRests) {
 /// instants alone reached 39.2 at t = 0 of the turn, and 40.5 at the peak of the impulse.
 TEST(PlanBound, SLOW_IsAboveTheBestKnownTrajectories) {
   const Problem turn = load_problem("uvms/valve_trajectory");
-  const Eigen::MatrixXd shipped =
-      load_knots("results/trajectories/uvms_valve_trajectory_spline.csv", turn);
+  const Eigen::MatrixXd shipped = load_knots(
+      MAXWRENCH_SOURCE_DIR "/results/trajectories/uvms_valve_trajectory_spline.csv", turn);
   const PlanBound bound = bound_trajectories(turn, {}, {.gap = 1e-2, .seconds = 600}, shipped);
   EXPECT_EQ(bound.status, Status::kBracket);
   EXPECT_NEAR(bound.answer.beta(), 35.8234, 1e-3);
