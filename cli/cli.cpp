@@ -145,6 +145,14 @@ void require_static(const Problem& problem, const char* command) {
                                           problem.type(), command));
 }
 
+void reject_given(const CLI::App& command, std::initializer_list<const char*> options,
+                  const std::string& why) {
+  for (const char* option : options) {
+    if (command.get_option(option)->count() == 0) continue;
+    throw std::invalid_argument(fmt::format("{}: got {}", option, why));
+  }
+}
+
 Eigen::VectorXd theta_r_of(const Problem& problem, const std::optional<std::string>& text) {
   return text ? parse_numbers("--theta-r", *text) : problem.theta_r_default;
 }

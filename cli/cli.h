@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <initializer_list>
 #include <optional>
 #include <string>
 
@@ -47,6 +48,12 @@ Eigen::VectorXd theta_r_of(const Problem& problem, const std::optional<std::stri
 
 /// Throws std::invalid_argument for a task in time, which the command does not support.
 void require_static(const Problem& problem, const char* command);
+
+/// Throws std::invalid_argument "OPTION: got ..." if one of these options is given.
+///
+/// @param why  what was got and what is expected
+void reject_given(const CLI::App& command, std::initializer_list<const char*> options,
+                  const std::string& why);
 
 /// Empty, or why the text is not a seed of random numbers.
 std::string reject_seed(const std::string& text);

@@ -26,7 +26,7 @@ set(maxwrench_solvers_sources
   solve/held.cpp solve/held_text.cpp solve/json_line.cpp solve/method.cpp solve/row.cpp solve/scenario_alone.cpp
   solve/scenario_ends.cpp solve/scenario_sample.cpp solve/sensitivity.cpp solve/solve.cpp solve/summary.cpp
   solve/tank.cpp solve/tank_scenarios.cpp solve/why_none.cpp
-  added_strategies.cpp strategies.cpp
+  added_strategies.cpp strategies.cpp strategy_lookup.cpp
   trajectory/assembled.cpp trajectory/bordered_facets.cpp trajectory/by_facets.cpp trajectory/embedding.cpp
   trajectory/common_factor.cpp trajectory/embedding_passes.cpp trajectory/even_efforts.cpp trajectory/facets_or_ipm.cpp trajectory/forms.cpp
   trajectory/forms_answer.cpp trajectory/forms_order.cpp trajectory/ipm.cpp trajectory/normal_matrix.cpp

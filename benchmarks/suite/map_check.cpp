@@ -1,12 +1,12 @@
 #include "benchmarks/suite/map_check.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
 #include "benchmarks/suite/map_rows.h"
+#include "benchmarks/tables/csv.h"
 #include "benchmarks/tables/draw.h"
 #include "benchmarks/tables/write_file.h"
 #include "maxwrench/batch.h"
@@ -48,10 +48,6 @@ MapSettings read_map_settings(const fs::path& file) {
   return settings;
 }
 
-std::string name_of_cell(const MapCell& cell) {
-  return fmt::format("cell {}", fmt::join(cell.index, ","));
-}
-
 }  // namespace
 
 MapCheck check_map(const fs::path& folder, const std::function<Problem(const std::string&)>& load,
@@ -69,8 +65,8 @@ MapCheck check_map(const fs::path& folder, const std::function<Problem(const std
   std::vector<MapCell> cells;
   table.each([&](const std::vector<std::string>& row) { cells.push_back(rows.read(row)); });
   if (cells.empty()) {
-    throw std::invalid_argument((folder / kMapTable).string() +
-                                ".gz: got no cell, expected one or more");
+    throw std::invalid_argument(table_file(folder / kMapTable).string() +
+                                ": got no cell, expected one or more");
   }
   const std::vector<std::size_t> drawn = draw_rows(cells.size(), sample, seed);
   std::vector<std::string> faults(drawn.size());
@@ -80,9 +76,8 @@ MapCheck check_map(const fs::path& folder, const std::function<Problem(const std
   });
   MapCheck check{task.name, cells.size(), drawn.size(), 0, {}};
   for (std::size_t i = 0; i < drawn.size(); ++i) {
-    const MapCell& cell = cells[drawn[i]];
-    check.values += cell.status == Status::kBestFound;
-    if (!faults[i].empty()) check.rejected.push_back(name_of_cell(cell) + ": " + faults[i]);
+    check.values += cells[drawn[i]].status == Status::kBestFound;
+    if (!faults[i].empty()) check.rejected.push_back(faults[i]);
   }
   return check;
 }

@@ -1,6 +1,7 @@
 #include "benchmarks/suite/map_rows.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <charconv>
 #include <cmath>
@@ -66,8 +67,8 @@ MapRows::MapRows(const Problem& task, const MapPlan& plan, const Case& choice)
       seed_(std::to_string(choice.seed)) {}
 
 std::string MapRows::fault(const MapCell& cell) const {
-  const auto fault = [](const std::string& got, const std::string& expected) {
-    return fmt::format("got {}, expected {}", got, expected);
+  const auto fault = [&cell](const std::string& got, const std::string& expected) {
+    return fmt::format("cell {}: got {}, expected {}", fmt::join(cell.index, ","), got, expected);
   };
   const Eigen::VectorXd at = lattice_.at(cell.index);
   bool inside = (cell.at - at).cwiseAbs().maxCoeff() <= kAnswerTolerance;

@@ -26,9 +26,9 @@ class MapRows {
   std::vector<std::string> row_of(const MapCell& cell) const;
   /// Throws std::invalid_argument if the row is none.
   MapCell read(const std::vector<std::string>& row) const;
-  /// Evaluates the posture of a cell again. Empty, or what is wrong: the coordinates are not those
-  /// of its place, the posture does not have its value, or a bound is below it. May be called from
-  /// any thread.
+  /// Evaluates the posture of a cell again. Empty, or the cell and what is wrong with it: the
+  /// coordinates are not those of its place, the posture does not have its value, or a bound is
+  /// below it. May be called from any thread.
   std::string fault(const MapCell& cell) const;
 
  private:

@@ -1,7 +1,6 @@
 #include "benchmarks/suite/map_store.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <nlohmann/json.hpp>
 #include <stdexcept>
@@ -92,8 +91,7 @@ std::optional<MapCell> MapStore::find(const std::vector<long>& index) const {
   if (found == known_.end()) return std::nullopt;
   const std::string fault = rows_.fault(found->second);
   if (!fault.empty()) {
-    throw std::invalid_argument(fmt::format("{}: cell {}: {}", table_file(kMapTable).string(),
-                                            fmt::join(index, ","), fault));
+    throw std::invalid_argument(table_file(kMapTable).string() + ": " + fault);
   }
   return found->second;
 }

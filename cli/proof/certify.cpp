@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <initializer_list>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -64,33 +63,24 @@ void throw_on_choices(const CertifyCommandOptions& options) {
   }
 }
 
-/// Throws if the command has one of these options.
-void reject_in_time(const CLI::App& command, std::initializer_list<const char*> names,
-                    const std::string& expected) {
-  for (const char* name : names) {
-    if (command.get_option(name)->count() == 0) continue;
-    throw std::invalid_argument(fmt::format("{}: got {}", name, expected));
-  }
-}
-
 /// Without a trajectory, bounds all trajectories of a task in time; else proves the given one.
 /// `command` has the options of static tasks, too.
 int certify_motion(const CertifyCommandOptions& options, const CLI::App& command,
                    const Problem& problem) {
-  reject_in_time(command, {"--within", "--resolution", "--figure", "--boxes"},
-                 problem.name + ", a task in time, expected a static task");
+  reject_given(command, {"--within", "--resolution", "--figure", "--boxes"},
+               problem.name + ", a task in time, expected a static task");
   if (!options.theta_r || options.bound) {
-    reject_in_time(command, {"--certificate"},
-                   "a bound on all trajectories, which has none, expected --theta-r without "
-                   "--bound");
+    reject_given(command, {"--certificate"},
+                 "a bound on all trajectories, which has none, expected --theta-r without "
+                 "--bound");
     const Eigen::MatrixXd knots =
         options.theta_r ? knots_of(problem, options.theta_r) : Eigen::MatrixXd();
     return bound_trajectories(problem, options.read_options(),
                               {.gap = options.gap, .seconds = options.seconds}, knots,
                               options.json);
   }
-  reject_in_time(command, {"--gap", "--time"},
-                 "the proof of one trajectory, expected it without --theta-r or with --bound");
+  reject_given(command, {"--gap", "--time"},
+               "the proof of one trajectory, expected it without --theta-r or with --bound");
   if (!options.certificate.empty() && options.motion.t_h) {
     throw std::invalid_argument("--certificate: got --t-h " + *options.motion.t_h +
                                 ", expected the peak that the task has without it");
@@ -243,8 +233,7 @@ void add_certify(CLI::App& app, int& exit_status) {
   CLI::App& command = *app.add_subcommand(
       "certify",
       "finds the largest capability and proves that no posture has more; of a task in time: what "
-      "no "
-      "trajectory exceeds or, with --theta-r, what a trajectory exerts at every instant");
+      "no trajectory exceeds or, with --theta-r, what a trajectory exerts at every instant");
   add_proof_options(command, *options);
   command.callback([options, &command, &exit_status] {
     require_apart(options->source.inputs(options->choice.problem),

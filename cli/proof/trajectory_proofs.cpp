@@ -80,8 +80,6 @@ void print_proof_of(const TrajectoryProof& proof, const Problem& problem, bool j
     fmt::print("{}", guaranteed_line(proof));
     if (proof.status == Status::kProven) {
       fmt::print("{}", decides_line(static_cast<std::size_t>(proof.scenarios), proof.decides));
-    }
-    if (proof.status == Status::kProven) {
       fmt::print("clearance  {}\n", words_of_clearance(proof.clearance));
       fmt::print("slices     {}, {} parts between knots, in {:.3g} s\n", proof.slices, proof.parts,
                  proof.seconds);

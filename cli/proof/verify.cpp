@@ -6,6 +6,7 @@
 
 #include "benchmarks/suite/map_check.h"
 #include "benchmarks/suite/map_store.h"
+#include "benchmarks/tables/csv.h"
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "cli/proof/lp_proof.h"
@@ -99,7 +100,8 @@ int check_lp_file(const VerifyOptions& options) {
 std::filesystem::path map_folder(const std::string& file) {
   const std::filesystem::path path = file;
   if (std::filesystem::is_directory(path)) return path;
-  const bool table = path.filename() == "map.csv.gz" || path.filename() == "map.csv";
+  const bool table =
+      path.filename() == kMapTable || path.filename() == std::string(kMapTable) + kPackedEnding;
   return table && holds_map(path.parent_path()) ? path.parent_path() : "";
 }
 

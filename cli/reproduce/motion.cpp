@@ -53,11 +53,6 @@ struct Moved {
   bool ran() const { return !tank.run.samples.empty(); }
 };
 
-std::string in_column(double value, int width = 8, int digits = 2) {
-  return std::isfinite(value) ? fmt::format("{:>{}.{}f}", value, width, digits)
-                              : fmt::format("{:>{}}", "none", width);
-}
-
 /// The change of the value of the same table of theta_r under another task.
 std::string rise(const Moved& moved, const MotionTask& other) {
   Problem problem = moved.problem;
@@ -133,9 +128,7 @@ std::vector<Moved> solve_scheme(RowWriter& writer, const MotionTable& table, con
   const Answer found = writer.solve(problem, c);
   if (!found.has_value()) return rows;
   add(table.moving, found);
-  std::string file = fmt::format("{}_{}.csv", problem.name, to_string(problem.motion->scheme));
-  std::replace(file.begin(), file.end(), '/', '_');
-  write_file(folder / "trajectories" / file, knots_csv(problem, found.trajectory.knots));
+  write_file(trajectory_file(folder, problem), knots_csv(problem, found.trajectory.knots));
   return rows;
 }
 
@@ -197,6 +190,19 @@ std::string motion_table(RowWriter& writer, const MotionTable& table,
 }
 
 }  // namespace
+
+std::string in_column(double value, int width, int digits) {
+  return std::isfinite(value) ? fmt::format("{:>{}.{}f}", value, width, digits)
+                              : fmt::format("{:>{}}", "none", width);
+}
+
+std::filesystem::path trajectory_file(const std::filesystem::path& folder, const Problem& problem,
+                                      const char* suffix) {
+  std::string file =
+      fmt::format("{}_{}{}.csv", problem.name, to_string(problem.motion->scheme), suffix);
+  std::replace(file.begin(), file.end(), '/', '_');
+  return folder / "trajectories" / file;
+}
 
 PaperTable reproduce_motion(const std::filesystem::path& folder, int threads, long budget) {
   long rows = 0;

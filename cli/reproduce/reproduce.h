@@ -6,6 +6,7 @@
 namespace maxwrench {
 
 struct Answer;
+struct Problem;
 
 /// One of the paper's tables, with our values.
 struct PaperTable {
@@ -16,6 +17,13 @@ struct PaperTable {
 /// The bound on all postures that branch and bound proves to 0.1 %, starting from the posture of an
 /// answer. NaN if no bound is supported or none is near enough.
 double proven_bound(const Answer& answer, int threads);
+
+/// The number in a column; "none" if it is not finite.
+std::string in_column(double value, int width = 8, int digits = 2);
+
+/// The table trajectories/TASK_SCHEME.csv of the folder, with a suffix behind SCHEME.
+std::filesystem::path trajectory_file(const std::filesystem::path& folder, const Problem& problem,
+                                      const char* suffix = "");
 
 // Each function solves its cases, writes them to values.csv and times.csv of the folder, and writes
 // its table, and its figures if any, to the same folder.

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <string>
@@ -19,23 +18,12 @@
 namespace maxwrench {
 namespace {
 
-/// One plan: a table of theta_r for a task, with what it is worth.
+/// A table of theta_r for a task.
 struct TankPlan {
   Problem problem;
   std::string name;  ///< how it was found
   Eigen::MatrixXd knots;
 };
-
-std::string plan_file(const Problem& problem, const char* suffix) {
-  std::string file =
-      fmt::format("{}_{}{}.csv", problem.name, to_string(problem.motion->scheme), suffix);
-  std::replace(file.begin(), file.end(), '/', '_');
-  return file;
-}
-
-std::string tank_number(double value) {
-  return std::isfinite(value) ? fmt::format("{:>8.3f}", value) : fmt::format("{:>8}", "none");
-}
 
 /// What is proven without regard to the lag; none for schemes that are no motion.
 double proven_value(const TankPlan& plan, int threads) {
@@ -66,13 +54,13 @@ std::string plan_line(const TankPlan& plan, double proven, bool inverse) {
   const double reading = ran ? reading_of(summary) : std::nan("");
   const char* const held = !ran ? "-" : summary.held ? "yes" : summary.lost ? "lost" : "no";
   const double lag = problem.motion->thruster_lag;
-  return fmt::format("{:<9} {:<10} {:<5} {:<8} {} {} {} {} {:>8} {:>6} {:>5}\n",
-                     to_string(problem.motion->scheme), plan.name,
-                     lag > 0 ? fmt::format("{:g}", lag) : "none", inverse ? "inverse" : "lead",
-                     tank_number(trajectory.value), tank_number(trajectory.value_between_knots),
-                     tank_number(proven), tank_number(reading),
-                     ran ? fmt::format("{:.4f}", reading / done.script.planned) : "none",
-                     ran ? fmt::format("{:.3f}", summary.configuration_error) : "-", held);
+  return fmt::format(
+      "{:<9} {:<10} {:<5} {:<8} {} {} {} {} {:>8} {:>6} {:>5}\n", to_string(problem.motion->scheme),
+      plan.name, lag > 0 ? fmt::format("{:g}", lag) : "none", inverse ? "inverse" : "lead",
+      in_column(trajectory.value, 8, 3), in_column(trajectory.value_between_knots, 8, 3),
+      in_column(proven, 8, 3), in_column(reading, 8, 3),
+      ran ? fmt::format("{:.4f}", reading / done.script.planned) : "none",
+      ran ? fmt::format("{:.3f}", summary.configuration_error) : "-", held);
 }
 
 /// The constant default, the trajectories of `reproduce_motion`, and the best one for the lag.
@@ -83,7 +71,7 @@ std::vector<TankPlan> plans_of(const char* name, const std::filesystem::path& fo
   for (const std::string& scheme : scheme_names(task.motion->impulse)) {
     Problem problem = task;
     set_scheme("scheme", scheme, problem);
-    const std::filesystem::path file = folder / "trajectories" / plan_file(problem, "");
+    const std::filesystem::path file = trajectory_file(folder, problem);
     if (!std::filesystem::exists(file)) continue;
     plans.push_back({problem, "optimised", load_knots(file, problem)});
   }
@@ -97,8 +85,7 @@ std::vector<TankPlan> plans_of(const char* name, const std::filesystem::path& fo
   const Answer found = solve(lagged, options);
   if (!found.has_value()) return plans;
   plans.push_back({lagged, "optimised", found.trajectory.knots});
-  write_file(folder / "trajectories" / plan_file(lagged, "_lag"),
-             knots_csv(lagged, found.trajectory.knots));
+  write_file(trajectory_file(folder, lagged, "_lag"), knots_csv(lagged, found.trajectory.knots));
   return plans;
 }
 
@@ -116,9 +103,9 @@ PaperTable reproduce_tank(const std::filesystem::path& folder, int threads, long
       100 * TankOptions().margin, kTrackedConfigurationError);
   for (const char* name : {"uvms/valve_trajectory", "uvms/valve_impulse", "uvms/lift_impulse"}) {
     text += fmt::format(
-        "\n{}: {}\nscheme    found_by   lag   feedfwd     value  between   proven  reading    "
-        "share  "
-        "error  held\n",
+        "\n{}: {}\n"
+        "scheme    found_by   lag   feedfwd     value  between   proven  reading    share  error  "
+        "held\n",
         name, load_problem(name).unit());
     for (const TankPlan& plan : plans_of(name, folder, threads, budget)) {
       const double proven = proven_value(plan, threads);

@@ -9,6 +9,7 @@
 #include "cli/cli.h"
 #include "maxwrench/load.h"
 #include "maxwrench/trajectory.h"
+#include "problems/make/motion_task.h"
 #include "solvers/solve/method.h"
 
 namespace maxwrench {
@@ -34,10 +35,8 @@ void change_peak(const Problem& problem, const std::string& text, MotionTask& ta
 }
 
 void change_lag(double lag, MotionTask& task) {
-  constexpr double kLongest = 1e3;
-  if (!(lag >= 0 && lag <= kLongest)) {
-    throw_bad_option("--thruster-lag", fmt::format("{}", lag),
-                     fmt::format("a time constant from 0 to {:g} s", kLongest));
+  if (!(lag >= 0 && lag <= kLongestLag)) {
+    throw_bad_option("--thruster-lag", fmt::format("{}", lag), lag_range());
   }
   task.thruster_lag = lag;
 }

@@ -64,7 +64,7 @@ void add_pareto(CLI::App& app, int& exit_status) {
   options->add_json(command);
   command
       .add_option("--against", options->against,
-                  "the other task, or several for one posture that supports all")
+                  "the other task, or several for one posture that suits all")
       ->required();
   command.add_option("--against-measure", options->against_measure,
                      "measure of the other tasks (default: --measure)");

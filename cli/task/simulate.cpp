@@ -111,18 +111,18 @@ int print_heaviest(const SimulateOptions& options, const Answer& answer) {
 /// Rejects options of a load where a list states the wrenches.
 void require_list_options(const Problem& problem, const SimulateOptions& options) {
   require_tank_scenarios(problem);
-  for (const char* option : {"--load", "--heaviest"}) {
-    if (options.command->get_option(option)->count() == 0) continue;
-    throw std::invalid_argument(fmt::format(
-        "{}: got {}, a task with a list of scenarios, expected one wrench", option, problem.name));
-  }
+  reject_given(*options.command, {"--load", "--heaviest"},
+               problem.name + ", a task with a list of scenarios, expected one wrench");
+}
+
+void require_planned(double planned) {
+  if (planned > 0) return;
+  throw std::invalid_argument(
+      fmt::format("--planned: got {}, expected a value > 0: none is possible here", planned));
 }
 
 int simulate_list(const SimulateOptions& options, const Answer& answer) {
-  if (!(options.planned > 0 || answer.capability.beta > 0)) {
-    throw std::invalid_argument(
-        fmt::format("--planned: got {}, expected a value > 0: none is possible here", 0));
-  }
+  require_planned(options.planned > 0 ? options.planned : answer.capability.beta);
   return report_experiments(
       *answer.task, options,
       simulate_scenarios(answer, options.planned, options.integrator, options.tank));
@@ -133,10 +133,7 @@ TankRun simulate_answer(const SimulateOptions& options, const Answer& answer) {
   if (tank.load > 0) return simulate_load(answer, tank.load, options.integrator, tank);
   const double planned =
       options.planned > 0 ? options.planned : answer.task->c.dot(answer.capability.h);
-  if (planned <= 0) {
-    throw std::invalid_argument(
-        fmt::format("--planned: got {}, expected a value > 0: none is possible here", planned));
-  }
+  require_planned(planned);
   return simulate_posture(answer, planned, options.integrator, tank);
 }
 

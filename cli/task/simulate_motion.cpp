@@ -23,11 +23,9 @@ struct MotionAnswer : TrajectoryExperiment {
 };
 
 void require_motion_options(const Problem& problem, const SimulateOptions& options) {
-  for (const char* option : {"--ramp", "--hold", "--load", "--heaviest"}) {
-    if (options.command->get_option(option)->count() == 0) continue;
-    throw std::invalid_argument(fmt::format("{}: got {} {}, expected a static task", option,
-                                            problem.motion->impulse ? "an" : "a", problem.type()));
-  }
+  reject_given(*options.command, {"--ramp", "--hold", "--load", "--heaviest"},
+               fmt::format("{} {}, expected a static task", problem.motion->impulse ? "an" : "a",
+                           problem.type()));
   if (options.choice.measure != "linf_polytope") {
     throw std::invalid_argument("--measure: got " + options.choice.measure +
                                 ", expected linf_polytope for a task in time");

@@ -11,7 +11,7 @@
 
 namespace maxwrench {
 
-/// One of several tasks that a posture supports, and how it is measured.
+/// One of several tasks of a posture, and how it is measured.
 struct Goal {
   Problem task;                          ///< a static task
   std::string measure = Case().measure;  ///< its measure

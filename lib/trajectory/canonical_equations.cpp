@@ -13,7 +13,7 @@ constexpr double kSlopeStep = 1e-5;  // rad or m, rad/s or m/s
 
 Eigen::VectorXd finite_limits(const Problem& problem) {
   const Zonotope& actuation = problem.robot.actuation;
-  Eigen::VectorXd w = actuation.u_min.cwiseAbs().cwiseMax(actuation.u_max.cwiseAbs());
+  Eigen::VectorXd w = effort_weights(problem);
   for (Eigen::Index i = 0; i < w.size(); ++i) {
     if (w[i] > 0 && std::isfinite(w[i])) continue;
     throw std::invalid_argument("search: got 'pontryagin' for an actuator with limits of " +
@@ -25,6 +25,11 @@ Eigen::VectorXd finite_limits(const Problem& problem) {
 }
 
 }  // namespace
+
+Eigen::VectorXd effort_weights(const Problem& problem) {
+  const Zonotope& actuation = problem.robot.actuation;
+  return actuation.u_min.cwiseAbs().cwiseMax(actuation.u_max.cwiseAbs());
+}
 
 CanonicalEquations::CanonicalEquations(const Problem& problem)
     : problem_(problem),
@@ -150,8 +155,8 @@ bool CanonicalEquations::linearize(const Eigen::VectorXd& z, double m, Eigen::Ve
   const Eigen::MatrixXd g_q = other_.by_q() - dynamics_.by_q();
   const Eigen::MatrixXd g_v = other_.by_v() - dynamics_.by_v();
   const Eigen::MatrixXd M_1 = other_.M() - dynamics_.M();
-  const Eigen::MatrixXd& B = problem_.robot.actuation.B;
   const Zonotope& actuation = problem_.robot.actuation;
+  const Eigen::MatrixXd& B = actuation.B;
 
   // Columns: by q, v, p, lambda, nu and m.
   const auto q = Eigen::seqN(0, n), v = Eigen::seqN(n, n), p = Eigen::seqN(2 * n, n),

@@ -17,6 +17,9 @@ struct TransferIndex {
   double speeds = 1;     ///< factor of the limits of speeds [-], positive
 };
 
+/// The w_i.
+Eigen::VectorXd effort_weights(const Problem& problem);
+
 /// By how much x exceeds [low, high], with its sign.
 inline double excess_of(double x, double low, double high) {
   return x > high ? x - high : x < low ? x - low : 0;

@@ -46,10 +46,8 @@ void require_transfer(const TaskSpec& task, Problem& problem) {
 
 /// Rejects a lag that is no time constant.
 void require_lag(const MotionTask& motion) {
-  constexpr double kLongest = 1e3;
-  if (motion.thruster_lag >= 0 && motion.thruster_lag <= kLongest) return;
-  throw BadValue("motion.thruster_lag", shown(motion.thruster_lag),
-                 fmt::format("a time constant from 0 to {:g} s", kLongest));
+  if (motion.thruster_lag >= 0 && motion.thruster_lag <= kLongestLag) return;
+  throw BadValue("motion.thruster_lag", shown(motion.thruster_lag), lag_range());
 }
 
 }  // namespace
@@ -72,6 +70,8 @@ void require_scheme(const std::string& name, bool impulse) {
   if (std::find(names.begin(), names.end(), name) != names.end()) return;
   throw BadValue("motion.scheme", shown(name), fmt::format("one of {}", fmt::join(names, ", ")));
 }
+
+std::string lag_range() { return fmt::format("a time constant from 0 to {:g} s", kLongestLag); }
 
 std::string peak_range(int k) { return fmt::format("a knot from 1 to k = {}, or 'best'", k); }
 

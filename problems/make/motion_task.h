@@ -5,6 +5,7 @@
 namespace maxwrench {
 
 inline constexpr int kMostKnots = 1000, kMostInstants = 100;
+inline constexpr double kLongestLag = 1e3;  ///< of thrusters [s]
 
 /// Rejects values that are not a duration [s].
 void require_duration(double T);
@@ -12,6 +13,8 @@ void require_duration(double T);
 void require_scheme(const std::string& name, bool impulse);
 /// The allowed values of the peak's knot in an impulse.
 std::string peak_range(int k);
+/// The allowed lags of thrusters.
+std::string lag_range();
 
 /// Rejects a robot without an equation of motion.
 void require_dynamics(const Robot& robot);

@@ -125,7 +125,7 @@ std::map<std::string, double> named_posture(const Robot& robot, std::string_view
 
 namespace {
 
-/// The task at the first of these postures that supports; at rest if none does.
+/// The task at the first of these postures that suits it; at rest if none does.
 Problem make_at_first(TaskSpec& task, const std::vector<Eigen::VectorXd>& postures) {
   const Robot& robot = task.robot;
   for (const Eigen::VectorXd& q : postures) {

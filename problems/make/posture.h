@@ -17,10 +17,10 @@ std::map<std::string, double> named_posture(const Robot& robot, std::string_view
 /// effector can move from there in all its directions without a collision; else, of random
 /// postures in the middle half of the joints' limits, the one from which it moves best.
 ///
-/// @throws BadValue as `make_problem` for the posture at rest, if no posture supports.
+/// @throws BadValue as `make_problem` for the posture at rest, if no posture suits the task.
 Problem make_at_some_posture(TaskSpec task);
 
-/// The same at a posture that supports as an example: away from the joints' limits, with the end
+/// The same at a posture that is a good example: away from the joints' limits, with the end
 /// effector in front of the base if a posture has it there.
 Problem make_at_good_posture(TaskSpec task);
 

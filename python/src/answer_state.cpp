@@ -14,24 +14,11 @@ void fields(Archive& archive, CallCount& c) {
 
 namespace {
 
-/// What pickle stores of an answer: the posture, and what its search did.
-struct AnswerState {
-  PyTask task;
-  Case choice;
-  RowMatrix given;
-  bool given_joints = false, collision = true;
-  Verdict verdict;
-  std::string unit, stopped;
-  long evaluations = 0, undecided = 0;
-  std::vector<CallCount> calls;
-  IkCounts ik_solutions;
-  double wall_s = 0;
-};
-
+/// What a search did, and what it found.
 template <class Archive>
-void fields(Archive& archive, AnswerState& s) {
-  archive(s.task, s.choice, s.given, s.given_joints, s.collision, s.verdict, s.unit, s.stopped,
-          s.evaluations, s.undecided, s.calls, s.ik_solutions, s.wall_s);
+void search_fields(Archive& archive, Answer& a) {
+  archive(static_cast<Verdict&>(a), a.unit, a.stopped, a.evaluations, a.undecided, a.calls,
+          a.ik_solutions, a.wall_s);
 }
 
 /// The answer of a posture or trajectory, without what its search did.
@@ -52,38 +39,27 @@ Answer evaluated(const Problem& task, const Case& choice, const RowMatrix& given
 }  // namespace
 
 py::tuple answer_state(const PyAnswer& self) {
-  const Answer& a = self.answer;
-  AnswerState state;
-  state.task = self.task;
-  state.choice = a.choice;
-  state.given = a.given_joints ? RowMatrix(a.posture.q.transpose()) : RowMatrix(a.trajectory.knots);
-  state.given_joints = a.given_joints;
-  state.collision = a.collision;
-  state.verdict = a;
-  state.unit = a.unit;
-  state.stopped = a.stopped;
-  state.evaluations = a.evaluations;
-  state.undecided = a.undecided;
-  state.calls = a.calls;
-  state.ik_solutions = a.ik_solutions;
-  state.wall_s = a.wall_s;
-  return pack(state);
+  PyTask task = self.task;
+  Answer a = self.answer;
+  RowMatrix given =
+      a.given_joints ? RowMatrix(a.posture.q.transpose()) : RowMatrix(a.trajectory.knots);
+  Packer packer;
+  packer(task, a.choice, given, a.given_joints, a.collision);
+  search_fields(packer, a);
+  return packer.state();
 }
 
-PyAnswer answer_from_state(const py::tuple& given) {
-  const auto state = unpack<AnswerState>(given);
-  Answer a = evaluated(*state.task.problem, state.choice, state.given, state.given_joints,
-                       state.collision);
-  a.choice = state.choice;
-  static_cast<Verdict&>(a) = state.verdict;
-  a.unit = state.unit;
-  a.stopped = state.stopped;
-  a.evaluations = state.evaluations;
-  a.undecided = state.undecided;
-  a.calls = state.calls;
-  a.ik_solutions = state.ik_solutions;
-  a.wall_s = state.wall_s;
-  return {std::move(a), state.task};
+PyAnswer answer_from_state(const py::tuple& state) {
+  PyTask task;
+  Case choice;
+  RowMatrix given;
+  bool given_joints = false, collision = true;
+  Unpacker unpacker(state);
+  unpacker(task, choice, given, given_joints, collision);
+  Answer a = evaluated(*task.problem, choice, given, given_joints, collision);
+  a.choice = choice;
+  search_fields(unpacker, a);
+  return {std::move(a), std::move(task)};
 }
 
 }  // namespace maxwrench::python

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "maxwrench/solve.h"
 #include "problems/make/bad_value.h"
 
 namespace maxwrench::python {
@@ -100,9 +101,14 @@ void run_in_background(const py::object& callback, const std::function<void(Watc
   if (of_computation) std::rethrow_exception(of_computation);
 }
 
+void watch_over(Watch& watch, Options& options) {
+  options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
+  options.interrupted = [&watch] { return watch.stop.load(); };
+}
+
 void require_callback(const py::object& callback) {
-  const bool supports = callback.is_none() || callback.is(py::bool_(false));
-  if (supports || PyCallable_Check(callback.ptr()) != 0) return;
+  const bool absent = callback.is_none() || callback.is(py::bool_(false));
+  if (absent || PyCallable_Check(callback.ptr()) != 0) return;
   throw BadValue("callback", std::string(py::repr(callback)), "a function, None or False");
 }
 

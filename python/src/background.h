@@ -6,6 +6,10 @@
 #include <functional>
 #include <string>
 
+namespace maxwrench {
+struct Options;
+}
+
 namespace maxwrench::python {
 
 namespace py = pybind11;
@@ -35,6 +39,9 @@ py::handle search_ended();
 /// @param callback  a function of one number, or None
 /// @param compute   the computation
 void run_in_background(const py::object& callback, const std::function<void(Watch&)>& compute);
+
+/// Lets Python watch and stop what is computed with these options.
+void watch_over(Watch& watch, Options& options);
 
 /// Throws std::invalid_argument unless it is a function, None or False.
 void require_callback(const py::object& callback);

@@ -82,8 +82,7 @@ py::object evaluated(const PyTask& task, Eigen::Index rows, bool gradients, Opti
   PyEvaluations result{{}, task, gradients};
   const Callback shown(callback, rows, task.problem->name);
   run_in_background(shown.function(), [&](Watch& watch) {
-    options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
-    options.interrupted = [&watch] { return watch.stop.load(); };
+    watch_over(watch, options);
     result.rows = evaluate(options);
   });
   return py::cast(std::move(result));

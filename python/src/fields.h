@@ -108,6 +108,7 @@ class Unpacker {
 
   template <class T>
   static void read(const py::object& from, std::vector<T>& items) {
+    items.clear();
     for (const py::handle& each : from) {
       read(py::reinterpret_borrow<py::object>(each), items.emplace_back());
     }
@@ -115,6 +116,7 @@ class Unpacker {
 
   template <class T>
   static void read(const py::object& from, std::optional<T>& item) {
+    item.reset();
     if (!from.is_none()) read(from, item.emplace());
   }
 

@@ -109,7 +109,7 @@ the first task's own best value to the second's, the search maximises the least 
 
 Args:
     task: a static Task, or the name of one.
-    against: the other one; or a list of several, for one posture that supports all.
+    against: the other one; or a list of several, for one posture that suits all.
     points: number of weights of two tasks; 0: only the posture for all.
     certify: whether to prove for each weight what no posture exceeds, to ``gap`` within ``seconds``.
     gap: the gap at which such a proof is complete, relative to its value.

@@ -38,8 +38,7 @@ py::object solve_task_held(const py::object& task, long simulations, const std::
   HeldTrajectory held;
   const Callback shown(callback, simulations, of.problem->name);
   run_in_background(shown.function(), [&](Watch& watch) {
-    options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
-    options.interrupted = [&watch] { return watch.stop.load(); };
+    watch_over(watch, options);
     held = solve_held(*of.problem, options, how);
   });
   return py::cast(std::move(held));
@@ -111,9 +110,10 @@ True
            })
       .def(py::pickle(&pack<HeldTrajectory>, &unpack<HeldTrajectory>));
   m.def("solve_held", &solve_task_held, py::arg("task"), py::kw_only(),
-        py::arg("simulations") = 200, py::arg("wrench") = "pure", py::arg("solver") = "",
-        py::arg("search") = "", py::arg("seed") = 1, py::arg("budget") = 0, py::arg("threads") = 0,
-        py::arg("integrator") = "cvode", py::arg("callback") = py::none(), kSolveHeld);
+        py::arg("simulations") = HeldOptions().simulations, py::arg("wrench") = "pure",
+        py::arg("solver") = "", py::arg("search") = "", py::arg("seed") = 1, py::arg("budget") = 0,
+        py::arg("threads") = 0, py::arg("integrator") = HeldOptions().integrator,
+        py::arg("callback") = py::none(), kSolveHeld);
 }
 
 }  // namespace maxwrench::python

@@ -73,8 +73,7 @@ py::object certify_task(const py::object& task, const py::object& theta_r, doubl
   PyProof result{{}, of};
   const Callback shown(callback, 0, of.problem->name);
   run_in_background(shown.function(), [&](Watch& watch) {
-    options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
-    options.interrupted = [&watch] { return watch.stop.load(); };
+    watch_over(watch, options);
     result.proof = certify(*of.problem, options, how);
   });
   return py::cast(std::move(result));

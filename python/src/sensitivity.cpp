@@ -73,8 +73,7 @@ Sensitivity compare_losses(const py::object& task, const py::object& theta_r,
   Sensitivity result;
   const Callback shown_line(callback, 0, problem.name);
   run_in_background(shown_line.function(), [&](Watch& watch) {
-    options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
-    options.interrupted = [&watch] { return watch.stop.load(); };
+    watch_over(watch, options);
     result = sensitivity(problem, posture, limits, options);
   });
   return result;

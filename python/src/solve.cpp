@@ -93,8 +93,7 @@ PyAnswer solve_task(const py::object& task, const std::string& measure, const st
   PyAnswer result{{}, of};
   const Callback shown(callback, budget, of.problem->name);
   run_in_background(shown.function(), [&](Watch& watch) {
-    options.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
-    options.interrupted = [&watch] { return watch.stop.load(); };
+    watch_over(watch, options);
     result.answer = solve(*of.problem, options);
   });
   return result;
@@ -131,7 +130,7 @@ Args:
         numbers that it keeps throughout.
     measure: the measure; ``measures()`` lists them.
     wrench: "pure": only multiples of c; "any": other wrenches of the task may occur, too.
-    solver: the solver of the lower level; the first one that supports if empty.
+    solver: the solver of the lower level; the first one that supports the task if empty.
     check_collision: whether a posture that collides is invalid.
     gradients: for N postures, whether ``Evaluations.gradient`` is computed. One posture always has
         its gradient.

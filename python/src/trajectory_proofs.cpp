@@ -99,8 +99,7 @@ py::object certify_motion(const PyTask& task, const py::object& theta_r, const O
   Options own = options;
   const Callback shown(callback, options.budget, problem.name);
   run_in_background(shown.function(), [&](Watch& watch) {
-    own.progress = [&watch](long evaluations) { watch.evaluations = evaluations; };
-    own.interrupted = [&watch] { return watch.stop.load(); };
+    watch_over(watch, own);
     result.proof = knots.size() > 0 ? certify_trajectory(problem, knots, own, how)
                                     : solve_proven(problem, own, how);
     if (knots.size() == 0) result.bound = bound_beside(result.proof, problem, own, limits);

@@ -132,7 +132,7 @@ Args:
     wrench: "pure": nothing beside these directions; "any": together with other wrenches of the
         task.
     measure: "linf_polytope" or "l2_polytope".
-    solver: the solver of the linear programs; the first one that supports if empty.
+    solver: the solver of the linear programs; the first one that supports the task if empty.
 
 Returns:
     Polytope: vertices, faces and the inequalities of the set.

@@ -230,7 +230,7 @@ class MapMaker {
 Case with_map_search(const Problem& task, Case c) {
   if (c.search.empty()) {
     c.search = default_search(task, c.measure, c.wrench);
-    // A second stage supports a single posture; here the neighbours do more for the same cost.
+    // A second stage helps a single task; here the neighbours do more for the same cost.
     if (c.search == "facet_sqp+cmaes") c.search = "facet_sqp";
   }
   if (c.budget == 0) c.budget = kMapBudget;

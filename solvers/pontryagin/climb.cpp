@@ -27,8 +27,7 @@ constexpr int kSwitchingSamples = 20;  // per interval, to find where efforts ch
 
 /// The largest effort at a node, in units of its weight.
 double largest_effort(Shooting& shooting, const Problem& problem, const Extremal& extremal) {
-  const Zonotope& set = problem.robot.actuation;
-  const Eigen::VectorXd w = set.u_min.cwiseAbs().cwiseMax(set.u_max.cwiseAbs());
+  const Eigen::VectorXd w = effort_weights(problem);
   CanonicalEquations& equations = shooting.equations(extremal);
   double largest = 0;
   Eigen::VectorXd z_dot;

@@ -20,12 +20,14 @@ struct Climb {
 
 /// Follows a curve of extremals to the largest payload.
 ///
-/// 1. The motion of least effort near a start (`minimise_effort`) gives states and costates. From
-///    there Newton's method finds the extremal of least effort at the mass of the start, without
-///    limits of efforts. 2. The limits are lowered to the task's. 3. The costates are scaled such
-///    that nu(T) = 1. This does not change the motion, but the index: the mass is now free. 4.
-///    epsilon falls, each time by a factor that depends on Newton's method, from the extremal that
-///    the last two predict. The mass rises, and the efforts approach jumps.
+/// * The motion of least effort near a start (`minimise_effort`) gives states and costates. From
+///   there Newton's method finds the extremal of least effort at the mass of the start, without
+///   limits of efforts.
+/// * The limits are lowered to the task's.
+/// * The costates are scaled such that nu(T) = 1. This does not change the motion, but the index:
+///   the mass is now free.
+/// * epsilon falls, each time by a factor that depends on Newton's method, from the extremal that
+///   the last two predict. The mass rises, and the efforts approach jumps.
 ///
 /// @param shooting  of the transfer
 /// @param problem   the transfer

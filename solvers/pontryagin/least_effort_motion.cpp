@@ -16,21 +16,17 @@ constexpr double kSmallGain = 1e-7;  // relative
 /// after the other.
 class EffortSum {
  public:
-  EffortSum(const Problem& problem, double m, double stiffness, const Eigen::MatrixXd& wanted,
-            const SchemeMaps& maps)
+  EffortSum(const Problem& problem, double m, double stiffness, const Eigen::MatrixXd& wanted)
       : problem_(problem),
         dynamics_(problem),
         m_(m),
         root_(std::sqrt(stiffness)),
         wanted_(wanted),
-        maps_(maps) {
-    const Zonotope& set = problem.robot.actuation;
-    const Eigen::VectorXd w = set.u_min.cwiseAbs().cwiseMax(set.u_max.cwiseAbs());
-    weights_ = w.cwiseInverse();
-    weighted_ = weights_.asDiagonal() * set.B_pinv;
-  }
+        weights_(effort_weights(problem).cwiseInverse()),
+        weighted_(weights_.asDiagonal() * problem.robot.actuation.B_pinv) {}
 
   double evaluate(const SplineMotion& motion, Eigen::MatrixXd* JtJ, Eigen::VectorXd* Jtr) {
+    const SchemeMaps& maps = motion.maps;
     const Eigen::Index n = motion.Q.cols(), inner = motion.Q.rows() - 2;
     if (JtJ) {
       JtJ->setZero(n * inner, n * inner);
@@ -38,7 +34,7 @@ class EffortSum {
     }
     double sum = 0;
     Eigen::MatrixXd J(weighted_.rows(), n * inner);
-    for (int i = 0; i < maps_.instants(); ++i) {
+    for (int i = 0; i < maps.instants(); ++i) {
       dynamics_.set(motion.q(i), motion.v(i), motion.a(i), m_);
       Eigen::VectorXd r = weighted_ * dynamics_.f();
       if (wanted_.size() > 0) r -= weights_.cwiseProduct(wanted_.col(i));
@@ -47,14 +43,14 @@ class EffortSum {
       const Eigen::MatrixXd by_q = weighted_ * dynamics_.by_q(),
                             by_v = weighted_ * dynamics_.by_v(), by_a = weighted_ * dynamics_.M();
       for (Eigen::Index j = 0; j < n; ++j) {
-        J.middleCols(j * inner, inner) = by_q.col(j) * maps_.P.row(i).segment(1, inner) +
-                                         by_v.col(j) * maps_.V.row(i).segment(1, inner) +
-                                         by_a.col(j) * maps_.A.row(i).segment(1, inner);
+        J.middleCols(j * inner, inner) = by_q.col(j) * maps.P.row(i).segment(1, inner) +
+                                         by_v.col(j) * maps.V.row(i).segment(1, inner) +
+                                         by_a.col(j) * maps.A.row(i).segment(1, inner);
       }
       JtJ->noalias() += J.transpose() * J;
       Jtr->noalias() += J.transpose() * r;
     }
-    for (int i = 0; i < maps_.instants(); ++i) sum += add_excess(motion, i, JtJ, Jtr);
+    for (int i = 0; i < maps.instants(); ++i) sum += add_excess(motion, i, JtJ, Jtr);
     return sum;
   }
 
@@ -73,11 +69,12 @@ class EffortSum {
       Jtr->segment(j * inner, inner).noalias() += root_ * excess * by;
     };
     for (Eigen::Index j = 0; j < q.size(); ++j) {
-      add(j, excess_of(q[j], problem_.theta_r_min[j], problem_.theta_r_max[j]), maps_.P.row(i));
+      add(j, excess_of(q[j], problem_.theta_r_min[j], problem_.theta_r_max[j]),
+          motion.maps.P.row(i));
       const int joint = problem_.redundant[static_cast<std::size_t>(j)];
       const double fastest = problem_.robot.joints[static_cast<std::size_t>(joint)].velocity_max;
       if (std::isinf(fastest)) continue;
-      add(j, excess_of(v[j] / fastest, -1, 1), maps_.V.row(i) / fastest);
+      add(j, excess_of(v[j] / fastest, -1, 1), motion.maps.V.row(i) / fastest);
     }
     return sum;
   }
@@ -86,7 +83,6 @@ class EffortSum {
   TransferDynamics dynamics_;
   double m_, root_;
   const Eigen::MatrixXd& wanted_;
-  const SchemeMaps& maps_;
   Eigen::VectorXd weights_;
   Eigen::MatrixXd weighted_;
 };
@@ -108,7 +104,7 @@ SplineMotion resampled(const MotionTask& task, const Eigen::MatrixXd& knots, int
 
 void follow_efforts(const Problem& problem, double m, double stiffness,
                     const Eigen::MatrixXd& efforts, SplineMotion& motion) {
-  EffortSum sum_of(problem, m, stiffness, efforts, motion.maps);
+  EffortSum sum_of(problem, m, stiffness, efforts);
   const Eigen::Index inner = motion.Q.rows() - 2;
   Eigen::MatrixXd JtJ;
   Eigen::VectorXd Jtr;
@@ -117,14 +113,14 @@ void follow_efforts(const Problem& problem, double m, double stiffness,
     Eigen::MatrixXd damped = JtJ;
     damped.diagonal() *= 1 + damping;
     const Eigen::VectorXd step = -damped.ldlt().solve(Jtr);
-    SplineMotion next = motion;
-    next.Q.middleRows(1, inner) += step.reshaped(inner, motion.Q.cols());
-    const double risen = sum_of.evaluate(next, nullptr, nullptr) - sum;
+    const Eigen::MatrixXd before = motion.Q;
+    motion.Q.middleRows(1, inner) += step.reshaped(inner, motion.Q.cols());
+    const double risen = sum_of.evaluate(motion, nullptr, nullptr) - sum;
     if (!(risen < 0)) {
+      motion.Q = before;
       damping *= 10;
       continue;
     }
-    motion = std::move(next);
     damping /= 5;
     if (-risen < kSmallGain * sum) return;
     sum = sum_of.evaluate(motion, &JtJ, &Jtr);

@@ -18,6 +18,7 @@ constexpr int kMostLevel = 20;  // 2^20 + 1 points
 // Of larger grids, the values of pairs would take gigabytes.
 constexpr double kMostGridCells = 1e6, kMostPairs = 4e6;
 constexpr double kMostValues = 8 * kMostPairs;  // of all knots; half a gigabyte with their order
+
 /// Dynamic programming over grids of control points, each with half the spacing of the one before.
 class Dp final : public Search {
  public:
@@ -89,7 +90,7 @@ class Dp final : public Search {
   static std::string refine(const InstantSource& source, const SearchOptions& options,
                             SearchRun& run, Probe& probe) {
     std::vector<DpMotion> motions;
-    for (int part = 0; part < kParts; ++part) motions.emplace_back(source, -1);
+    for (int part = 0; part < kParts; ++part) motions.emplace_back(source);
     const InstantEvaluator& instants = motions.front().instants();
     const MotionTask& task = instants.task();
     const Limits limits(instants);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <numeric>
 #include <queue>
+#include <unordered_map>
 #include <utility>
 
 namespace maxwrench {
@@ -108,7 +109,7 @@ bool DpLevel::backward() {
 /// The states that follow. Of i = -1 the one whose first instant is evaluated.
 void DpLevel::expand(const State& state, long number, DpMotion& motion,
                      std::vector<State>& children) {
-  const Eigen::VectorXd a = grid_.at(state.a), b = grid_.at(state.b), c = grid_.at(state.c);
+  const auto a = grid_.at(state.a), b = grid_.at(state.b), c = grid_.at(state.c);
   const int next = state.i + 1;
   if (state.i < 0) {
     const double value = motion.at_knot(0, a, b, c, above_);
@@ -161,8 +162,9 @@ bool DpLevel::forward(Result& result) {
   const auto key = [&](const State& state) {
     const auto cells = static_cast<std::uint64_t>(grid_.cells()) + 1;
     std::uint64_t k = static_cast<std::uint64_t>(state.i);
-    for (const int cell : {state.a, state.b, state.c})
+    for (const int cell : {state.a, state.b, state.c}) {
       k = k * cells + static_cast<std::uint64_t>(cell);
+    }
     return k;
   };
   std::vector<std::vector<State>> children(kExpanded);

@@ -1,8 +1,6 @@
 #pragma once
 
 #include <functional>
-#include <memory>
-#include <unordered_map>
 #include <vector>
 
 #include "solvers/search/dp_grid.h"

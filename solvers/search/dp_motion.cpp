@@ -8,10 +8,9 @@
 
 namespace maxwrench {
 
-DpMotion::DpMotion(const InstantSource& source, int peak)
+DpMotion::DpMotion(const InstantSource& source)
     : instants_(source.make_instants(
           [](bool one_column) { return one_column ? make_facets() : make_condensed(); })),
-      peak_(peak),
       asks_every_(instants_->maps().instants()) {}
 
 void DpMotion::begin(long allowed, SearchRun& run) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <atomic>
 #include <memory>
 #include <vector>
 
@@ -26,16 +25,15 @@ class DpMotion {
  public:
   using Point = Eigen::Ref<const Eigen::VectorXd>;
 
-  /// `peak`: the knot of the peak of an impulse, or -1; at other instants an impulse needs balance
-  /// only.
-  DpMotion(const InstantSource& source, int peak);
+  explicit DpMotion(const InstantSource& source);
 
   const InstantEvaluator& instants() const { return *instants_; }
   int knots() const { return instants_->maps().knots(); }
+  /// The knot of the peak of an impulse, or -1; at other instants an impulse needs balance only.
   void set_peak(int peak) { peak_ = peak; }
 
   /// Begins a part: forgets the last instant, and may then evaluate this many. The run is asked
-  /// once per `asks_every` of them whether it ended.
+  /// whether it ended once per as many as the task has.
   void begin(long allowed, SearchRun& run);
   /// Whether the part ended because it may evaluate no more, or the run did.
   bool stopped() const { return stopped_; }
@@ -53,7 +51,7 @@ class DpMotion {
   double value(int instant, bool at_knot, double above);
 
   std::unique_ptr<InstantEvaluator> instants_;
-  int peak_;
+  int peak_ = -1;
   long allowed_ = 0, made_ = 0, asks_every_;
   bool stopped_ = false;
   SearchRun* run_ = nullptr;

@@ -151,7 +151,7 @@ TEST(Command, BoxTakesOverWhereThereAreTooManyFacets) {
   const CommandResult many =
       run_maxwrench("eval force.toml --theta-r 0.3,-0.7 --json", copy.path());
   ASSERT_EQ(many.exit_status, 0) << many.err;
-  // Who asks for facets is told, not supported by another.
+  // A request for facets is rejected, not answered by another solver.
   const CommandResult asked =
       run_maxwrench("eval force.toml --theta-r 0.3,-0.7 --solver facets", copy.path());
   EXPECT_EQ(asked.exit_status, 2);

@@ -64,7 +64,7 @@ complete_words() {
   )
 }
 same "completion" "$(complete_words maxwrench sol)" solve
-same "completion" "$(complete_words maxwrench solve --thr)" --threads
+same "completion" "$(complete_words maxwrench solve --threa)" --threads
 same "completion" "$(complete_words maxwrench solve mobile/push_)" mobile/push_any_height
 same "completion" "$(complete_words maxwrench solve uvms/valve --search ann)" annealing
 same "completion" "$(complete_words maxwrench solve uvms/valve --search slp)" slp

@@ -8,10 +8,10 @@ namespace maxwrench {
 ScenarioTask scenario_task(const Problem& problem, int wrench, int limits) {
   const ScenarioList& list = problem.scenarios;
   const ScenarioWrench& stated = list.wrenches[static_cast<std::size_t>(wrench)];
-  const ScenarioLimits& held = list.limits[static_cast<std::size_t>(limits)];
+  const ScenarioLimits& allowed = list.limits[static_cast<std::size_t>(limits)];
   ScenarioTask one{list.wrenches.size() > 1 ? stated.name : "", problem,
                    stated.hold ? 0 : stated.c.norm()};
-  if (!held.name.empty()) one.name += (one.name.empty() ? "" : "; ") + held.name;
+  if (!allowed.name.empty()) one.name += (one.name.empty() ? "" : "; ") + allowed.name;
   if (one.name.empty()) one.name = "nominal";
   Problem& task = one.task;
   task.scenarios = {};
@@ -20,8 +20,8 @@ ScenarioTask scenario_task(const Problem& problem, int wrench, int limits) {
   task.W_any.resize(6, 1 + list.F.cols());
   task.W_any << task.c, list.F;
   Zonotope& actuation = task.robot.actuation;
-  actuation.u_min = held.actuation.u_min;
-  actuation.u_max = held.actuation.u_max;
+  actuation.u_min = allowed.actuation.u_min;
+  actuation.u_max = allowed.actuation.u_max;
   for (Eigen::Index i = 0; i < actuation.u_min.size(); ++i) {
     if (actuation.u_min[i] == 0 && actuation.u_max[i] == 0) actuation.B.col(i).setZero();
   }

@@ -174,7 +174,7 @@ class InstantBound final : public Bound {
     }
   }
 
-  /// -lambda'tau at the best motion, for rows of values; `slopes` is scratch.
+  /// -lambda'tau at the best motion, for rows of values.
   void reach(const Eigen::MatrixXd& rows, Eigen::VectorXd& most) {
     const Eigen::Index n = model_->n();
     most.noalias() = -rows.leftCols(n) * lambda_;
@@ -280,7 +280,7 @@ class InstantBound final : public Bound {
   Eigen::Index points_ = 0;
 };
 
-/// The lower and the upper limits of x, side by side.
+/// A limit of x, from those of theta_r and of its rate.
 Eigen::VectorXd joined(const Eigen::VectorXd& place, const Eigen::VectorXd& rate, bool rests) {
   if (rests) return place;
   Eigen::VectorXd x(place.size() + rate.size());

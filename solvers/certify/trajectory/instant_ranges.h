@@ -8,8 +8,6 @@ namespace maxwrench {
 /// Limits of r numbers.
 struct NumberRanges {
   Eigen::VectorXd low, high;
-  Eigen::VectorXd middle() const { return (low + high) / 2; }
-  Eigen::VectorXd half() const { return (high - low) / 2; }
 };
 
 /// What theta_r, its rate and its acceleration can be at one instant.

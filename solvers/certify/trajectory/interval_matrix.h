@@ -56,17 +56,16 @@ T signed_square_of(const T& x) {
 }
 template <>
 inline Narrow signed_square_of(const Narrow& x) {
-  return {Narrow::below(x.low * std::abs(x.low)), Narrow::above(x.high * std::abs(x.high))};
+  return signed_square(Jet<0>(x)).c[0];
 }
-/// Its derivative is 2 |x|.
 template <>
 inline NarrowDual signed_square_of(const NarrowDual& x) {
   NarrowDual square(signed_square_of(x.v));
-  const double least = x.v.low > 0 ? x.v.low : x.v.high < 0 ? -x.v.high : 0;
-  const Narrow twice = 2.0 * Narrow(least, x.v.magnitude());
   square.varies = x.varies;
   for (std::size_t k = 0; x.varies && k < NarrowDual::kDirections; ++k) {
-    square.d[k] = twice * x.d[k];
+    Jet<1> along(x.v);
+    along.c[1] = x.d[k];
+    square.d[k] = signed_square(along).c[1];
   }
   return square;
 }

@@ -21,16 +21,10 @@
 namespace maxwrench {
 namespace {
 
-using PlanClock = std::chrono::steady_clock;
-
 /// The number of boxes of the first look at each instant, which chooses the one to continue.
 constexpr long kFirstBoxes = 400;
 /// The branch and bound of an instant ends when it is this near to the best value found there.
 constexpr double kInstantGap = 1e-3;
-
-double seconds_since(PlanClock::time_point start) {
-  return std::chrono::duration<double>(PlanClock::now() - start).count();
-}
 
 [[noreturn]] void throw_unbounded(const Problem& problem, const char* got, const char* expected) {
   throw std::invalid_argument(problem.name + ": got " + got + ", expected " + expected +
@@ -107,7 +101,7 @@ class PlanBounder {
         value_(value),
         options_(options),
         result_(result),
-        start_(PlanClock::now()),
+        start_(std::chrono::steady_clock::now()),
         maps_(make_scheme(*problem.motion)),
         all_count_(problem.motion->impulse) {
     for (const int instant : instants_of(*problem.motion, maps_)) {
@@ -116,8 +110,8 @@ class PlanBounder {
   }
 
   void run() {
-    for (Look& look : looks_) {
-      if (looks_.size() > 1) bound_one(look, kFirstBoxes, options_.seconds);
+    if (looks_.size() > 1) {
+      for (Look& look : looks_) bound_one(look, kFirstBoxes, options_.seconds);
     }
     std::vector<Look*> order;
     for (Look& look : looks_) order.push_back(&look);
@@ -128,7 +122,7 @@ class PlanBounder {
     });
     if (!all_count_) order.resize(1);
     for (std::size_t i = 0; i < order.size(); ++i) {
-      const double now = seconds_since(start_);
+      const double now = seconds();
       const double share = (options_.seconds - now) / static_cast<double>(order.size() - i);
       bound_one(*order[i], options_.boxes, now + share);
     }
@@ -138,7 +132,7 @@ class PlanBounder {
     result_.bound = deciding.bound;
     if (deciding.bound < kInfinity) result_.t = deciding.t;
     result_.allowed = deciding.best.value;
-    result_.seconds = seconds_since(start_);
+    result_.seconds = seconds();
     conclude(deciding.how);
   }
 
@@ -153,7 +147,10 @@ class PlanBounder {
   };
 
   bool is_interrupted() const { return options_.interrupted && options_.interrupted(); }
-  bool is_over(double until) const { return seconds_since(start_) > until || is_interrupted(); }
+  double seconds() const {
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+  }
+  bool is_over(double until) const { return seconds() > until || is_interrupted(); }
 
   /// Looks for a good motion at an instant: random ones, then steps from the best, which grow and
   /// shrink with their success.
@@ -193,7 +190,7 @@ class PlanBounder {
     CertifyOptions own = options_;
     own.gap = std::min(options_.gap, kInstantGap);
     own.boxes = boxes;
-    own.seconds = std::max(0.0, until - seconds_since(start_));
+    own.seconds = std::max(0.0, until - seconds());
     // Bounds below the value of a known trajectory are impossible.
     Candidate known = look.best;
     if (value_ > known.value) {
@@ -225,7 +222,7 @@ class PlanBounder {
   double value_;
   const CertifyOptions& options_;
   PlanBound& result_;
-  PlanClock::time_point start_;
+  std::chrono::steady_clock::time_point start_;
   SchemeMaps maps_;
   bool all_count_;
   std::vector<Look> looks_;

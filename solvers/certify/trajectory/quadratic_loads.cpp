@@ -22,7 +22,7 @@ VectorX<Narrow> narrow_between(const Eigen::VectorXd& low, const Eigen::VectorXd
 QuadraticLoads::QuadraticLoads(const PlanInstant& at)
     : at_(at), plain_(at.task, at.x), dual_(at.task, at.x) {
   const Eigen::Index n = at.task.robot.velocities(), r = at.task.redundancy();
-  constant_ = low_ = high_ = sizes_ = rest_ = Eigen::VectorXd::Zero(n);
+  constant_ = low_ = high_ = sizes_ = Eigen::VectorXd::Zero(n);
   reach_ = Eigen::VectorXd::Zero(r);
   G_ = Eigen::MatrixXd::Zero(n, 2 * r);
 }

@@ -37,7 +37,7 @@ class QuadraticLoads {
   InstantLoads<NarrowDual> dual_;
   VectorX<Narrow> whole_, centre_;
   VectorX<NarrowDual> slopes_;
-  Eigen::VectorXd constant_, low_, high_, reach_, sizes_, rest_;
+  Eigen::VectorXd constant_, low_, high_, reach_, sizes_;
   Eigen::MatrixXd G_;
 };
 

@@ -14,8 +14,8 @@ namespace {
 constexpr const char* kLift = MAXWRENCH_SOURCE_DIR "/examples/tasks/two_link/lift.toml";
 constexpr double kStep = 1e-6;
 
-/// A random point of the state space, beyond the limits of speeds in some coordinates, at which no
-/// effort is at its limit and some are.
+/// A random point of the state space, often beyond the limits of speeds, at which some efforts are
+/// at their limits and others are not.
 Eigen::VectorXd random_state(Random& random) {
   Eigen::VectorXd z(9);
   z << random.uniform(-1, 1), random.uniform(-2, 2), random.uniform(-5, 5), random.uniform(-6, 6),

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <string>
@@ -107,7 +108,7 @@ TEST(Extremal, OfTheTwoLinkArmMovesThePublishedMass) {
   EXPECT_LT(most - least, 1e-4 * std::abs(most));
 }
 
-/// What ends in the middle keeps what it had.
+/// A climb that ends in the middle says so.
 TEST(Extremal, EndsWhenNothingIsLeftToSpend) {
   const Problem problem = load_problem(kLuus);
   for (const int most : {0, 1, 5, 20}) {

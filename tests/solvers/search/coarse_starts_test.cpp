@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
-#include <string>
 
 #include "maxwrench/load.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 #include "solvers/search/knot_starts.h"
+#include "tests/support/drawn_starts.h"
 #include "tests/support/objectives.h"
 
 namespace maxwrench {
@@ -15,37 +14,13 @@ namespace {
 
 using Eigen::VectorXd;
 
-std::unique_ptr<TrajectoryObjective> objective_to_coarsen(const Problem& problem) {
-  return make_trajectory_objective(problem, Wrench::kPure,
-                                   find_trajectory_solver("facets_or_ipm").make);
-}
-
-SearchOptions coarse_options(const Problem& problem, long budget, int threads = 2) {
-  SearchOptions options;
-  options.budget = budget;
-  options.threads = threads;
-  options.start = stacked(default_knots(problem));
-  return options;
-}
-
-struct CoarseStarts {
-  CoarseStarts(TrajectoryObjective& objective, SearchOptions options) {
-    options.progress = [this](long count) { shown = std::max<long>(shown, count); };
-    SearchRun run(options);
-    starts = find_coarse_starts(objective, options, run, found);
-  }
-  std::vector<Candidate> starts;
-  Part found;
-  std::atomic<long> shown = 0;
-};
-
 /// A table whose knots are alike stands for the same motion with any number of knots. So the values
 /// at the instants differ only by which instants count, and those of the coarser objective are
 /// among the instants between the knots of the task: k = 10 has 37 instants, k = 4 has 7, every
 /// sixth.
 TEST(CoarserObjective, HasTheValueOfTheSameMotionAtFewerInstants) {
   const Problem problem = load_problem("uvms/valve_trajectory");
-  const auto objective = objective_to_coarsen(problem);
+  const auto objective = trajectories_to_draw(problem);
   const auto coarse = objective->coarser();
   ASSERT_NE(coarse, nullptr);
   EXPECT_EQ(coarse->dimension(), 4 * problem.redundancy());
@@ -72,16 +47,16 @@ TEST(CoarserObjective, HasTheValueOfTheSameMotionAtFewerInstants) {
 
 TEST(CoarserObjective, ThereIsNoneOfImpulsesTransfersFewKnotsAndOtherSchemes) {
   const Problem impulse = load_problem("uvms/valve_impulse");
-  EXPECT_EQ(objective_to_coarsen(impulse)->coarser(), nullptr);
+  EXPECT_EQ(trajectories_to_draw(impulse)->coarser(), nullptr);
   Problem problem = load_problem("planar/trajectory");
-  ASSERT_NE(objective_to_coarsen(problem)->coarser(), nullptr);
+  ASSERT_NE(trajectories_to_draw(problem)->coarser(), nullptr);
   problem.motion->scheme = Scheme::kForward;
-  EXPECT_EQ(objective_to_coarsen(problem)->coarser(), nullptr);
+  EXPECT_EQ(trajectories_to_draw(problem)->coarser(), nullptr);
   problem.motion->scheme = Scheme::kSpline;
   problem.motion->k = 4;
-  EXPECT_EQ(objective_to_coarsen(problem)->coarser(), nullptr);
+  EXPECT_EQ(trajectories_to_draw(problem)->coarser(), nullptr);
   const Problem fixed = load_problem("planar/force");
-  EXPECT_EQ(objective_to_coarsen(fixed)->coarser(), nullptr);
+  EXPECT_EQ(trajectories_to_draw(fixed)->coarser(), nullptr);
 }
 
 class CoarseStartsOf : public testing::TestWithParam<const char*> {};
@@ -91,9 +66,9 @@ INSTANTIATE_TEST_SUITE_P(Tasks, CoarseStartsOf,
 
 TEST_P(CoarseStartsOf, AreTablesOfTheTaskWithAValueWithinAllLimits) {
   const Problem problem = load_problem(GetParam());
-  const auto objective = objective_to_coarsen(problem);
-  const SearchOptions options = coarse_options(problem, 2000);
-  const CoarseStarts coarse(*objective, options);
+  const auto objective = trajectories_to_draw(problem);
+  const SearchOptions options = draw_options(problem, 2000);
+  const Drawn coarse(find_coarse_starts, *objective, options);
   ASSERT_GT(coarse.starts.size(), 1U);
   EXPECT_EQ(coarse.starts.back().theta_r, options.start);
   const KnotRows& rows = objective->trajectories().rows();
@@ -116,9 +91,9 @@ TEST_P(CoarseStartsOf, AreTablesOfTheTaskWithAValueWithinAllLimits) {
 
 TEST_P(CoarseStartsOf, AreTheSameAtAnyThreadCount) {
   const Problem problem = load_problem(GetParam());
-  const auto objective = objective_to_coarsen(problem);
-  const CoarseStarts one(*objective, coarse_options(problem, 500, 1));
-  const CoarseStarts four(*objective, coarse_options(problem, 500, 4));
+  const auto objective = trajectories_to_draw(problem);
+  const Drawn one(find_coarse_starts, *objective, draw_options(problem, 500, 1));
+  const Drawn four(find_coarse_starts, *objective, draw_options(problem, 500, 4));
   ASSERT_EQ(one.starts.size(), four.starts.size());
   for (std::size_t i = 0; i < one.starts.size(); ++i) {
     EXPECT_EQ(one.starts[i].theta_r, four.starts[i].theta_r);
@@ -129,13 +104,13 @@ TEST_P(CoarseStartsOf, AreTheSameAtAnyThreadCount) {
 
 TEST(CoarseStarts, NoneForSmallBudgetsAndOnceTheRunHasEnded) {
   const Problem problem = load_problem("planar/trajectory");
-  const auto objective = objective_to_coarsen(problem);
-  const CoarseStarts small(*objective, coarse_options(problem, 100));
+  const auto objective = trajectories_to_draw(problem);
+  const Drawn small(find_coarse_starts, *objective, draw_options(problem, 100));
   EXPECT_TRUE(small.starts.empty());
   EXPECT_EQ(small.found.trace.evaluations(), 0);
-  SearchOptions options = coarse_options(problem, 2000);
+  SearchOptions options = draw_options(problem, 2000);
   options.interrupted = [] { return true; };
-  const CoarseStarts ended(*objective, options);
+  const Drawn ended(find_coarse_starts, *objective, options);
   EXPECT_TRUE(ended.starts.empty());
   EXPECT_EQ(ended.found.trace.evaluations(), 0);
 }
@@ -143,20 +118,20 @@ TEST(CoarseStarts, NoneForSmallBudgetsAndOnceTheRunHasEnded) {
 /// A user's objective that has no coarser one.
 TEST(CoarseStarts, NoneWithoutACoarserObjective) {
   const Problem problem = load_problem("planar/trajectory");
-  auto objective = objective_to_coarsen(problem);
+  auto objective = trajectories_to_draw(problem);
   const VectorXd lower = objective->lower(), upper = objective->upper();
   OtherBounds bounded(std::move(objective), lower, upper);
-  EXPECT_TRUE(CoarseStarts(bounded, coarse_options(problem, 2000)).starts.empty());
+  EXPECT_TRUE(Drawn(find_coarse_starts, bounded, draw_options(problem, 2000)).starts.empty());
 }
 
 /// The turn of the valve has optima of many families, of which the best is 35.8234 N m at the
 /// instants (`docs/algorithms`): each of 20 seeds comes within 0.1 %.
 TEST(CoarseStarts, SLOW_TheTurnReachesItsBestWithEverySeed) {
   const Problem problem = load_problem("uvms/valve_trajectory");
-  const auto objective = objective_to_coarsen(problem);
+  const auto objective = trajectories_to_draw(problem);
   double best = -kInfinity, worst = kInfinity;
   for (int seed = 1; seed <= 20; ++seed) {
-    SearchOptions options = coarse_options(problem, 20'000);
+    SearchOptions options = draw_options(problem, 20'000);
     options.seed = static_cast<std::uint64_t>(seed);
     const double value = find_search("slp").make()->maximize(*objective, options).value;
     best = std::max(best, value);

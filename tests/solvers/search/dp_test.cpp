@@ -31,7 +31,7 @@ class DpCase {
   explicit DpCase(const Problem& problem, int points, Wrench wrench = Wrench::kPure)
       : objective_(dp_objective(problem, wrench)), run_(options_) {
     const auto& source = dynamic_cast<const InstantSource&>(*objective_);
-    for (int part = 0; part < 8; ++part) motions.emplace_back(source, -1);
+    for (int part = 0; part < 8; ++part) motions.emplace_back(source);
     const InstantEvaluator& instants = motions.front().instants();
     step.resize(problem.redundancy());
     for (Eigen::Index j = 0; j < step.size(); ++j) {
@@ -265,7 +265,6 @@ TEST(Dp, AnOpenPeakKeepsToTheBudget) {
 /// A start without a value is no obstacle: the grid has plans that have one.
 TEST(Dp, DoesNotNeedAStartWithAValue) {
   Problem problem = load_problem("planar/trajectory");
-  const auto objective = dp_objective(problem);
   SearchOptions options = dp_options(problem, 4000);
   for (Eigen::Index i = 0; i < options.start.size(); ++i) {  // far too fast
     options.start[i] = i / 2 % 2 == 0 ? problem.theta_r_min[0] : problem.theta_r_max[0];
@@ -295,7 +294,6 @@ TEST(Dp, ReportsThePlansOwnValueWithEffortRates) {
 TEST(Dp, AnImpulseStartsWhereItIsGiven) {
   const Problem problem = load_problem("uvms/lift_impulse");
   DpCase dp(problem, 3);
-  for (DpMotion& motion : dp.motions) motion.set_peak(problem.motion->k);
   const DpLevel::Result best = dp.solve(problem.motion->k);
   ASSERT_TRUE(best.complete);
   ASSERT_EQ(best.cells.size(), static_cast<std::size_t>(problem.motion->k + 1));

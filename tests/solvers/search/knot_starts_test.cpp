@@ -11,6 +11,7 @@
 #include "maxwrench/load.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
+#include "tests/support/drawn_starts.h"
 #include "tests/support/objectives.h"
 
 namespace maxwrench {
@@ -18,33 +19,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
-
-std::unique_ptr<TrajectoryObjective> trajectories_to_draw(const Problem& problem) {
-  return make_trajectory_objective(problem, Wrench::kPure,
-                                   find_trajectory_solver("facets_or_ipm").make);
-}
-
-SearchOptions draw_options(const Problem& problem, long budget, int threads = 2) {
-  SearchOptions options;
-  options.budget = budget;
-  options.threads = threads;
-  options.start = problem.theta_r_default.replicate(problem.motion->k, 1);
-  return options;
-}
-
-/// What was drawn, and what that took.
-struct Drawn {
-  using Draw = std::vector<Candidate>(TrajectoryObjective&, const SearchOptions&, SearchRun&,
-                                      Part&);
-  Drawn(Draw* draw, TrajectoryObjective& objective, SearchOptions options) {
-    options.progress = [this](long count) { shown = std::max<long>(shown, count); };
-    SearchRun run(options);
-    starts = draw(objective, options, run, found);
-  }
-  std::vector<Candidate> starts;
-  Part found;
-  std::atomic<long> shown = 0;
-};
 
 /// k×r: what each knot differs by from that of the start.
 MatrixXd offsets(const Candidate& start, const SearchOptions& options, int knots) {

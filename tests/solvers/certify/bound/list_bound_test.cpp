@@ -28,7 +28,7 @@ void expect_bounded(const std::string& name, Problem task, int boxes, int postur
     const double low = evaluate_one(*objective, (box.lower + box.upper) / 2);
     BoxProof proof;
     bound->evaluate(box.lower, box.upper, std::isfinite(low) ? low : 0, bound->ceiling(), proof);
-    // The multiplier of a box supports any part of it.
+    // The multiplier of a box is valid for any part of it.
     BoxProof half = proof;
     Eigen::VectorXd upper = box.upper;
     upper[0] = (box.lower[0] + box.upper[0]) / 2;

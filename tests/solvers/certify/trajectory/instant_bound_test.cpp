@@ -235,7 +235,8 @@ TEST(InstantRanges, HoldRandomTables) {
             .joints[static_cast<std::size_t>(problem.redundant[static_cast<std::size_t>(j)])]
             .velocity_max;
     const double start = random.uniform(problem.theta_r_min[j], problem.theta_r_max[j]);
-    Eigen::VectorXd Q = drawn(random, Eigen::VectorXd::Constant(10, -1), Eigen::VectorXd::Ones(10));
+    const Eigen::VectorXd ones = Eigen::VectorXd::Ones(maps.knots());
+    Eigen::VectorXd Q = drawn(random, -ones, ones);
     Q *= V / (maps.speed * Q).lpNorm<Eigen::Infinity>();
     Q.array() += start - Q[0];
     if (Q.minCoeff() < problem.theta_r_min[j] || Q.maxCoeff() > problem.theta_r_max[j]) continue;

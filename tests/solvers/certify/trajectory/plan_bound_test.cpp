@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "maxwrench/load.h"
 #include "tests/support/support.h"
 
@@ -14,7 +16,7 @@ TEST(PlanBound, SLOW_IsTheStaticOptimumWhereTheSchemeRests) {
   for (const Scheme scheme : {Scheme::kForward, Scheme::kEnds}) {
     Problem task = load_problem("uvms/valve_trajectory");
     task.motion->scheme = scheme;
-    const PlanBound bound = bound_trajectories(task, {}, {.gap = 5e-3});
+    const PlanBound bound = bound_trajectories(task, {}, {.gap = 5e-3, .seconds = 600});
     EXPECT_EQ(bound.status, Status::kProven) << bound.reason.c_str();
     EXPECT_GE(bound.bound, 35.408299);
     EXPECT_LE(bound.bound, 35.4084 * 1.006);
@@ -35,7 +37,12 @@ TEST(PlanBound, SLOW_IsAboveTheBestKnownTrajectories) {
   EXPECT_GE(bound.bound, bound.allowed);
   EXPECT_LE(bound.bound, 41.5);
   EXPECT_EQ(bound.t, 0);
-  const PlanBound peak = bound_trajectories(load_problem("uvms/valve_impulse"), {}, {.seconds = 2});
+  std::atomic<int> rounds = 0;  // of boxes
+  Options options;
+  options.interrupted = [&rounds] { return rounds >= 15; };
+  ProofOptions limits{.seconds = 600};
+  limits.progress = [&rounds](double, double) { ++rounds; };
+  const PlanBound peak = bound_trajectories(load_problem("uvms/valve_impulse"), options, limits);
   EXPECT_GE(peak.bound, 40.5338);
   EXPECT_LT(peak.bound, kInfinity);
   EXPECT_NEAR(peak.t, 1.875, 1e-12);
@@ -47,8 +54,12 @@ TEST(PlanBound, OfAnOpenPeakIsThatOfTheBestOne) {
   task.motion->t_h = 0;
   Options options;
   options.check_collision = false;
-  ProofOptions limits;
-  limits.seconds = 3;
+  // Once all knots have a bound, motions are tried at the one with the highest. This asks without
+  // any progress more often than the 512 halves of a round of boxes.
+  std::atomic<int> asked = -1;  // since the last progress; negative: there was none
+  options.interrupted = [&asked] { return asked >= 0 && ++asked > 1000; };
+  ProofOptions limits{.seconds = 600};
+  limits.progress = [&asked](double, double) { asked = 0; };
   const PlanBound open = bound_trajectories(
       task, options, limits,
       Eigen::MatrixXd(task.theta_r_default.transpose().replicate(task.motion->k, 1)));
