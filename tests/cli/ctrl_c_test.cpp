@@ -41,6 +41,7 @@ TEST(CtrlC, SolvePrintsTheBestSoFar) {
   for (const SearchEntry& search : searches()) {
     const std::string name = search.name;
     if (name == "nullspace" || name == "multistart") continue;  // end by themselves, soon
+    if (kSanitized && name != "cmaes") continue;
     SCOPED_TRACE(search.name);
     const json best = interrupted_answer(
         "solve uvms/valve --json --budget 10000000 --search " + name, folder.path());

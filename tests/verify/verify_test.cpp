@@ -174,9 +174,9 @@ TEST(Verify, RejectsFalseProofs) {
       EXPECT_NE(at.rejection(tampering.next(way)), "") << "way " << way << ", tampering " << i;
     }
   };
-  reject_all({"planar/force", "linf_polytope", Wrench::kPure, 1e-3}, samples(400));
-  reject_all({"planar/force", "ellipsoid", Wrench::kPure, 1e-2}, samples(400));
-  reject_all({"mobile/push", "linf_polytope", Wrench::kPure, 1e-2}, samples(160));
+  reject_all({"planar/force", "linf_polytope", Wrench::kPure, 1e-3}, samples(200));
+  reject_all({"planar/force", "ellipsoid", Wrench::kPure, 1e-2}, samples(200));
+  reject_all({"mobile/push", "linf_polytope", Wrench::kPure, 1e-2}, samples(80));
   reject_all({"uvms/lift", "linf_polytope", Wrench::kPure, 1e-1}, samples(40));
 }
 
@@ -261,7 +261,7 @@ TEST(Verify, RejectsARootThatLeavesOutALimit) {
 TEST(Verify, RejectsOtherCuts) {
   const WrittenProof at("mobile/push", "linf_polytope", Wrench::kPure, 1e-2);
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const int enough = std::max(2, samples(20));
+  const int enough = std::max(2, samples(10));
   int seen = 0;
   for (std::size_t i = 0; i < at.proof.tree.nodes.size() && seen < enough; ++i) {
     const Tree::Node& node = at.proof.tree.nodes[i];

@@ -63,7 +63,7 @@ TEST(LagCommand, TheTankRequestsWhatThrustersReach) {
   EXPECT_LT(object["violation"].get<double>(), 1e-6);
 }
 
-TEST(LagCommand, TheBestThatTheTankHoldsIsWritten) {
+TEST(LagCommand, SLOW_TheBestThatTheTankHoldsIsWritten) {
   const TemporaryFolder folder;
   const CommandResult result = run_maxwrench(
       "solve planar/trajectory --worth tank --simulations 3 --budget 200 --out best.csv --json",

@@ -35,7 +35,7 @@ TankRun lift_with_a_death(double planned, double t, double noticed_after = 0) {
 
 /// By an independent model the lift's default posture holds 14.55665 N whichever thruster is dead,
 /// and 29.92061 N with all of them: what survives is held, what does not is lost.
-TEST(TankDeath, WhatSurvivesTheLossIsHeld) {
+TEST(TankDeath, SLOW_WhatSurvivesTheLossIsHeld) {
   const TankRun survives = lift_with_a_death(14.5, 7);
   EXPECT_EQ(survives.status, Status::kReached) << survives.reason.c_str();
   EXPECT_TRUE(survives.summary.held) << survives.summary.missed;
@@ -72,7 +72,7 @@ TEST(TankDeath, TheThrusterExertsNothingFromThenOn) {
 
 /// A controller that counts on a thruster for a while lets the posture go farther, and the
 /// transient takes longer.
-TEST(TankDeath, ALateNoticeCosts) {
+TEST(TankDeath, SLOW_ALateNoticeCosts) {
   const TankRun at_once = lift_with_a_death(14.5, 7), late = lift_with_a_death(14.5, 7, 1);
   ASSERT_TRUE(at_once.summary.after && late.summary.after);
   EXPECT_GT(late.summary.after->configuration_error,
@@ -88,7 +88,7 @@ TEST(TankDeath, AFailureNeedsTimeToSettle) {
 }
 
 /// The end of the hold is at 10 s: a death after it is no part of the hold.
-TEST(TankDeath, OnlyTheHoldCounts) {
+TEST(TankDeath, SLOW_OnlyTheHoldCounts) {
   const Problem problem = load_problem("uvms/lift");
   const Answer answer = evaluate(problem, problem.theta_r_default);
   TankOptions options;

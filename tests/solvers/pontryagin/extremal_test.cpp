@@ -43,7 +43,8 @@ Problem slider(double gravity, double effort) {
 /// product over their sum. With x = U/M: x^2 - g^2 = 4 d x/T^2, so x = 2 d/T^2 + sqrt((2 d/T^2)^2 +
 /// g^2). The effort changes at T (x + g)/(2 x).
 TEST(Extremal, OfADoubleIntegratorIsTheClosedForm) {
-  for (const auto& [gravity, effort] : {std::pair(0.0, 10.0), std::pair(9.81, 40.0)}) {
+  for (const auto& [gravity, effort] : {std::pair(9.81, 40.0), std::pair(0.0, 10.0)}) {
+    if (kSanitized && gravity == 0) continue;
     const Problem problem = slider(gravity, effort);
     Shooting shooting(problem, [] { return true; });
     int plans = 0;
@@ -83,7 +84,7 @@ TEST(Extremal, OfLeastEffortIsTheCubic) {
 
 /// The published least time of 2.98228 s is that for 1 kg, with two links of 1 kg and efforts of 1
 /// N m that jump three times (Luus 2000). H is constant along an extremal.
-TEST(Extremal, OfTheTwoLinkArmMovesThePublishedMass) {
+TEST(Extremal, SLOW_OfTheTwoLinkArmMovesThePublishedMass) {
   const Problem problem = load_problem(kLuus);
   Shooting shooting(problem, [] { return true; });
   double mass = -1;
@@ -111,7 +112,7 @@ TEST(Extremal, OfTheTwoLinkArmMovesThePublishedMass) {
 /// A climb that ends in the middle says so.
 TEST(Extremal, EndsWhenNothingIsLeftToSpend) {
   const Problem problem = load_problem(kLuus);
-  for (const int most : {0, 1, 5, 20}) {
+  for (const int most : {0, 1, 5, kSanitized ? 6 : 20}) {
     int left = most;
     Shooting shooting(problem, [&left] { return left-- > 0; });
     const Climb found = climb(shooting, problem, default_knots(problem), 0, [](const Extremal&) {});

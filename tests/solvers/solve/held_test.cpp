@@ -9,6 +9,7 @@
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "solvers/solve/tank.h"
+#include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
@@ -18,13 +19,13 @@ using testing::ThrowsMessage;
 
 Options few_evaluations() {
   Options options;
-  options.budget = 400;
+  options.budget = kSanitized ? 100 : 400;
   options.threads = 1;
   return options;
 }
 
 /// The reading is that of an experiment of its own with the same knots and the same planned wrench.
-TEST(SolveHeld, WhatIsReportedIsHeldAgain) {
+TEST(SolveHeld, SLOW_WhatIsReportedIsHeldAgain) {
   const Problem task = load_problem("planar/trajectory");
   HeldOptions how;
   how.simulations = 6;

@@ -75,7 +75,7 @@ TEST(TankScenarios, TheValueOfAListIsHeldInEachScenario) {
 }
 
 /// More than the value is held in some scenarios only, and the worst one is named.
-TEST(TankScenarios, MoreThanTheValueIsNotHeldByTheOneThatDecides) {
+TEST(TankScenarios, SLOW_MoreThanTheValueIsNotHeldByTheOneThatDecides) {
   const Problem problem = load_problem(example("lift_with_a_dead_thruster"));
   TankOptions options;
   options.until_hold = true;

@@ -54,7 +54,7 @@ TEST(SceneTank, ReadsWhatSimulateReads) {
 }
 
 /// 3000 periods of 0.01 s: lowest and highest readings of stretches, so none is lost.
-TEST(SceneTank, ALongExperimentKeepsItsExtremes) {
+TEST(SceneTank, SLOW_ALongExperimentKeepsItsExtremes) {
   const TemporaryFolder folder;
   std::string task = read_text(MAXWRENCH_SOURCE_DIR "/problems/mobile/trajectory.toml");
   const auto replace = [&task](const std::string& from, const std::string& to) {

@@ -12,6 +12,7 @@ const kSky = {
 };
 
 const kFill = 0.9; // of the picture that the subject fills
+const kButtons = 44; // px at the top of the canvas that buttons cover
 
 function gradient([top, bottom]) {
   const canvas = document.createElement("canvas");
@@ -86,11 +87,15 @@ export class Stage {
     this.invalidate();
   }
 
+  get stacked() {
+    return this.views.length > 1 && this.canvas.clientWidth <= this.canvas.clientHeight;
+  }
+
   /** Where a view is on the canvas [px]: beside each other on a wide one, else one above the other. */
   boxOf(i) {
     const { clientWidth, clientHeight } = this.canvas;
     const count = this.views.length;
-    if (clientWidth > clientHeight) return { x: (i * clientWidth) / count, y: 0, width: clientWidth / count, height: clientHeight };
+    if (!this.stacked) return { x: (i * clientWidth) / count, y: 0, width: clientWidth / count, height: clientHeight };
     return { x: 0, y: (i * clientHeight) / count, width: clientWidth, height: clientHeight / count };
   }
 
@@ -139,8 +144,9 @@ export class Stage {
   /** Puts the camera as near as the whole subject is seen. */
   frame() {
     const { box, centre, from } = this.subject;
-    const high = kFill * Math.tan((this.camera.fov * Math.PI) / 360);
-    const wide = high * this.camera.aspect;
+    const slope = kFill * Math.tan((this.camera.fov * Math.PI) / 360);
+    const wide = slope * this.camera.aspect;
+    const high = this.stacked ? slope * (1 - (2 * kButtons) / this.boxOf(0).height) : slope; // a wide picture has room beside the buttons
     const right = new Vector3().crossVectors(this.camera.up, from).normalize();
     const up = new Vector3().crossVectors(from, right);
     let distance = 0;
