@@ -63,7 +63,7 @@ TEST(SolveHeld, AnInterruptionEndsItEarly) {
 }
 
 /// An interruption after the first experiments keeps the best of them.
-TEST(SolveHeld, AnInterruptionKeepsWhatIsHeld) {
+TEST(SolveHeld, SLOW_AnInterruptionKeepsWhatIsHeld) {
   const Problem task = load_problem("planar/trajectory");
   Options options = few_evaluations();
   long done = 0;
