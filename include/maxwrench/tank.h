@@ -15,6 +15,7 @@
 
 namespace maxwrench {
 
+struct DataFault;
 struct Robot;
 class TrajectorySolver;
 struct Instant;
@@ -22,8 +23,10 @@ struct Trajectory;
 struct Posture;
 struct Problem;
 
-/// Rejects a robot that cannot move in the tank: with gears, which its equation of motion lacks, or
-/// with links that no body can be (`Robot::no_dynamics`).
+/// The first thing that keeps a robot out of the tank: a gear, which its equation of motion lacks,
+/// or a link that no body can be (`Robot::no_dynamics`). Nothing if it can move there.
+std::optional<DataFault> unmodelled(const Robot& robot);
+/// Rejects a robot with such a fault.
 ///
 /// @throws std::invalid_argument with key, value and what was expected.
 void check(const Robot& robot);

@@ -1,4 +1,5 @@
 #include <cmath>
+#include <optional>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -63,16 +64,21 @@ void check_deaths(const TankOptions& options, const Robot& robot, double duratio
   }
 }
 
-void check(const Robot& robot) {
-  const auto reject = [](const DataFault& fault) {
-    throw std::invalid_argument(fault.key + ": got " + fault.got + ", expected " + fault.expected);
-  };
+std::optional<DataFault> unmodelled(const Robot& robot) {
   for (const Joint& joint : robot.joints) {
     if (!joint.gear) continue;
-    reject({"joint[" + joint.name + "].mimic", "a gear",
-            "a robot without gears: lock the joint, for the tank does not model them"});
+    return DataFault{"joint[" + joint.name + "].mimic", "a gear",
+                     "a robot without gears: lock the joint, for the tank does not model them"};
   }
-  if (!robot.no_dynamics.empty()) reject(robot.no_dynamics.front());
+  if (!robot.no_dynamics.empty()) return robot.no_dynamics.front();
+  return std::nullopt;
+}
+
+void check(const Robot& robot) {
+  if (const std::optional<DataFault> fault = unmodelled(robot)) {
+    throw std::invalid_argument(fault->key + ": got " + fault->got + ", expected " +
+                                fault->expected);
+  }
 }
 
 void check(const ScriptOptions& options) {

@@ -70,12 +70,14 @@ double reading_of(const TankSummary& summary) {
 
 std::vector<std::string> supported_integrators(const Problem& problem, const std::string& measure) {
   const bool factor = problem.motion && problem.motion->has_factor();
-  const bool supports = !problem.contact && !factor && measure == Case().measure;
+  const bool supports =
+      !problem.contact && !factor && measure == Case().measure && !unmodelled(problem.robot);
   return supports ? stiff_integrators() : std::vector<std::string>();
 }
 
 Answer experiment(const Problem& task, const Options& options) {
   const auto start = std::chrono::steady_clock::now();
+  check(task.robot);
   const std::vector<std::string> supported = supported_integrators(task, options.measure);
   if (std::find(supported.begin(), supported.end(), options.integrator) == supported.end()) {
     throw std::invalid_argument(

@@ -13,7 +13,8 @@ struct TrajectorySolverEntry;
 struct Problem;
 
 /// The names of the integrators that the virtual tank supports for a problem. Empty if there is no
-/// experiment, as with a second contact or with a measure that is not a wrench of the polytope.
+/// experiment, as with a second contact, a robot that the tank does not model or with a measure
+/// that is not a wrench of the polytope.
 std::vector<std::string> supported_integrators(const Problem& problem, const std::string& measure);
 
 /// The reading that counts: the mean of a hold, the lowest along a path, that at the peak of an

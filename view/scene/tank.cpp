@@ -45,12 +45,12 @@ void require_tank(const Problem& problem, const std::string& measure, const std:
     throw std::invalid_argument(key + ": got " + problem.name +
                                 ", a static task, expected a task in time");
   }
+  check(problem.robot);
   if (supported_integrators(problem, measure).empty()) {
     throw std::invalid_argument(key + ": got " + problem.name +
                                 ", expected a task in time with one wrench along c, without a "
                                 "second contact");
   }
-  check(problem.robot);
 }
 
 ordered_json tank_json(const Answer& answer) {

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <stdexcept>
@@ -11,6 +12,9 @@
 
 namespace maxwrench {
 namespace {
+
+using testing::HasSubstr;
+using testing::ThrowsMessage;
 
 Options tried(const char* problem, const char* integrator, const char* scheme = "") {
   return {{.problem = problem, .scheme = scheme, .integrator = integrator}};
@@ -67,9 +71,13 @@ TEST(Experiment, ALostPostureHasNoReading) {
 
 TEST(Experiment, RejectsWhatIsNotSupported) {
   const Problem wall = load_problem("dual_arm/bar_wall"), valve = load_problem("uvms/valve");
+  const Problem geared = load_problem("gallery/panda/lift");  // a finger that follows the other
   EXPECT_TRUE(supported_integrators(wall, "linf_polytope").empty());
+  EXPECT_TRUE(supported_integrators(geared, "linf_polytope").empty());
   EXPECT_TRUE(supported_integrators(valve, "ellipsoid").empty());
   EXPECT_THROW(experiment(wall, tried("dual_arm/bar_wall", "cvode")), std::invalid_argument);
+  EXPECT_THAT([&] { experiment(geared, tried("gallery/panda/lift", "cvode")); },
+              ThrowsMessage<std::invalid_argument>(HasSubstr("got a gear")));
   for (const char* name : {"arkode", "x", ""}) {
     EXPECT_THROW(experiment(valve, tried("uvms/valve", name)), std::invalid_argument);
   }
