@@ -1,6 +1,7 @@
 """A figure for each search: which postures of planar/force it evaluates, and how it approaches the best value of uvms/valve."""
 
 import functools
+import pathlib
 
 import numpy as np
 
@@ -11,6 +12,10 @@ from figures.style import BLUE, GREY, TASK, landscape, save, two_panels
 BUDGETS = [20, 40, 80, 160, 320, 640, 1280, 2560]
 SEEDS = range(1, 4)
 SHORTFALL = 1e-6  # what counts as none
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+TURNS = ["planar/trajectory", "mobile/trajectory"]
+TRANSFER = str(ROOT / "examples/tasks/two_link/luus.toml")
+LONG = 1000  # evaluations that a search for tasks in time alone may make
 
 
 class Recorded(mw.Measure):
@@ -70,24 +75,56 @@ def draw_facets(axes, n=81):
     axes.set_title("colour: the facet that limits the force; star: the best", fontsize=9)
 
 
-def draw_knots(axes, search):
-    """The knots of planar/trajectory, as they are by default and as the search leaves them."""
-    task = mw.load("planar/trajectory")
+def supports(search, task):
+    try:
+        mw.solve(task, search=search, budget=1, callback=False)
+    except mw.InputError:
+        return False
+    return True
+
+
+@functools.cache
+def solved(search, name, budget):
+    return mw.solve(mw.load(name), search=search, budget=budget, callback=False)
+
+
+def draw_knots(axes, search, name="planar/trajectory", budget=300):
+    """The knots of a task in time, as they are by default and as the search leaves them."""
+    task = mw.load(name)
     fixed = mw.evaluate(task, task.theta_r_default)
-    found = mw.solve(task, search=search, budget=300, callback=False)
-    for answer, colour, name in [(fixed, GREY, "default"), (found, BLUE, search)]:
+    found = solved(search, name, budget)
+    for answer, colour, label in [(fixed, GREY, "default"), (found, BLUE, search)]:
         knots = np.broadcast_to(answer.theta_r, (task.knots, len(task.theta_r_names)))
         times = np.linspace(answer.t[0], answer.t[-1], len(knots))
         for joint, style in zip(knots.T, ["o-", "o--"]):
             axes.plot(times, joint, style, ms=3, color=colour)
-        axes.plot([], [], color=colour, label=f"{name}: {answer.beta:.2f} {answer.unit} throughout")
+        axes.plot([], [], color=colour, label=f"{label}: {answer.beta:.2f} {answer.unit} throughout")
     axes.set(xlabel="time [s]", ylabel="joints at the knots [rad]")
-    axes.set_title("planar/trajectory (first joint solid, second dashed)", fontsize=9)
+    axes.set_title(f"{name} (first joint solid, second dashed)", fontsize=9)
     axes.legend(frameon=False)
+
+
+def draw_transfer(left, right, search):
+    """Joints and efforts of a transfer over time."""
+    found = solved(search, TRANSFER, LONG)
+    for axes, curves, what in ((left, found.theta[:, -2:], "joints [rad]"), (right, found.u, "efforts [N m]")):
+        for curve, style in zip(np.transpose(curves), ["-", "--"]):
+            axes.plot(found.t, curve, style, color=BLUE)
+        axes.set(xlabel="time [s]", ylabel=what)
+    left.set_title(f"luus: {found.beta:.3f} {found.unit} (first joint solid, second dashed)", fontsize=9)
+    right.set_title("its efforts", fontsize=9)
 
 
 def draw(search, path):
     figure, (left, right) = two_panels()
+    if not supports(search, "uvms/valve"):
+        if supports(search, TURNS[0]):
+            for axes, task in zip((left, right), TURNS):
+                draw_knots(axes, search, task, LONG)
+        else:
+            draw_transfer(left, right, search)
+        save(figure, path)
+        return
     postures = visited(search)
     if postures is not None:
         landscape(left, bar=False)
