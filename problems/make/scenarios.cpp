@@ -153,10 +153,6 @@ void set_wrenches(const TaskSpec& task, Problem& problem) {
     throw BadValue(given.key, given.got,
                    "no such key except in static tasks; wrench.set lists wrenches in time");
   }
-  if (problem.motion && !current_of(task).isZero(0)) {
-    throw BadValue("environment.current", shown(current_of(task)),
-                   "no such key except in static tasks");
-  }
   if (task.payload) return set_payload(task, problem);
   if (problem.motion && problem.motion->table) return set_table(task, problem);
   ScenarioList& list = problem.scenarios;
@@ -222,7 +218,13 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
                    "0 in tasks in time, where friction opposes the rate of a joint");
   }
   list.loads = uncertain_loads(uncertainty, problem);
-  if (!current_of(task).isZero(0)) list.loads.push_back(known_current(task, problem.robot));
+  if (!current_of(task).isZero(0)) {
+    LoadGroup single = known_current(task, problem.robot);
+    problem.robot.current = single.front().current;
+    if (!problem.motion) list.loads.push_back(std::move(single));
+  } else {
+    problem.robot.current.setZero();
+  }
   const std::vector<ActuatorLimits> limits = actuator_limits(task.loss, uncertainty, problem.robot);
   double corners = 1;
   for (const LoadGroup& group : list.loads) corners *= static_cast<double>(group.size());
