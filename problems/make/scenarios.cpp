@@ -8,6 +8,7 @@
 #include "lib/math/decompositions.h"
 #include "lib/math/rotated.h"
 #include "lib/robot/chain.h"
+#include "lib/scenario/current_load.h"
 #include "problems/make/bad_value.h"
 #include "problems/make/losses.h"
 #include "problems/make/payload.h"
@@ -138,6 +139,15 @@ void require_known_loads(const UncertaintySpec& uncertainty) {
   require_none(uncertainty.current_speed != 0 || !uncertainty.current_vectors.empty(), "current");
 }
 
+/// Rejects a payload at rest on whose added mass A a current V exerts the moment V x (A V).
+void require_no_moment_of_payload(const TaskSpec& task, const ScenarioList& list) {
+  if (!list.payload || !has_current(list)) return;
+  const Vector6d& A = task.payload->added_mass;
+  if (A[0] == A[1] && A[1] == A[2]) return;
+  throw BadValue("payload.added_mass_per_kg", shown(A),
+                 "the same along all axes, in a static task in a current");
+}
+
 /// Rejects a list whose trajectory programs would be too large.
 void require_few_knots(double scenarios, const MotionTask& motion) {
   if (scenarios == 1 || scenarios * motion.k <= kMostKnotsOfList) return;
@@ -225,6 +235,7 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
   } else {
     problem.robot.current.setZero();
   }
+  require_no_moment_of_payload(task, list);
   const std::vector<ActuatorLimits> limits = actuator_limits(task.loss, uncertainty, problem.robot);
   double corners = 1;
   for (const LoadGroup& group : list.loads) corners *= static_cast<double>(group.size());

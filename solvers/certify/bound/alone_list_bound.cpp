@@ -30,8 +30,8 @@ struct Alone {
   std::unique_ptr<Bound> bound;
 };
 
-/// The bound of a posture that rests in a current, in axes that move with the water: an instant of a
-/// motion at -v_c without rates of theta_r.
+/// The bound of a posture that rests in a current, in axes that move with the water: an instant of
+/// a motion at -v_c without rates of theta_r.
 class RestingBound final : public Bound {
  public:
   RestingBound(std::unique_ptr<Bound> instant, Eigen::Index r)
@@ -64,8 +64,8 @@ std::unique_ptr<Bound> bound_of(const PlanInstant& at, Wrench wrench) {
 /// A task with the wet masses and first moments of the cases, and at -v_c of their current.
 PlanInstant instant_with(const Problem& alone, const std::vector<const LoadCase*>& cases) {
   const Eigen::VectorXd none = Eigen::VectorXd::Zero(alone.redundancy());
-  PlanInstant at{alone, {}, {{alone.theta_r_min, alone.theta_r_max}, {none, none}, {none, none}},
-                 false};
+  PlanInstant at{
+      alone, {}, {{alone.theta_r_min, alone.theta_r_max}, {none, none}, {none, none}}, false};
   at.x.pose = alone.pose;
   at.x.twist.setZero();
   at.x.acceleration.setZero();
@@ -206,8 +206,11 @@ std::unique_ptr<Bound> make_alone_list_bound(const Problem& problem, Wrench wren
     reject_alone(problem, std::string(where) + " with a ball or a payload", "wrenches one by one");
   }
   if (problem.contact || !problem.dependent.empty() || problem.free.count() > 0) {
-    reject_alone(problem, std::string(where) + " at a pose that is partly free, or with dependent "
-                          "joints", "a fixed pose and a base that follows in closed form");
+    reject_alone(problem,
+                 std::string(where) +
+                     " at a pose that is partly free, or with dependent "
+                     "joints",
+                 "a fixed pose and a base that follows in closed form");
   }
   return std::make_unique<AloneListBound>(scenarios_alone(problem, wrench));
 }

@@ -102,6 +102,18 @@ const std::vector<ChangedProblem> kBadCurrents = {
      {"environment.gravity: got an unknown key"}},
 };
 
+const ChangedProblem kMomentOfPayload = {
+    "moment_of_payload",
+    "lift.toml",
+    "[wrench]\nc = [0, 0, 1, 0, 0, 0]",
+    "[payload]\ncom = [0, 0, 0]\nadded_mass_per_kg = [0, 0, 0.1, 0, 0, 0]\n[environment]\ncurrent "
+    "= [0.1, 0, 0]\n",
+    {"payload.added_mass_per_kg: got [0, 0, 0.1, 0, 0, 0]", "the same along all axes"}};
+
+TEST(KnownCurrent, RejectsThatItTurnsAPayloadAtRest) {
+  expect_rejected(kMomentOfPayload, "uvms/lift");
+}
+
 class BadCurrents : public testing::TestWithParam<ChangedProblem> {};
 INSTANTIATE_TEST_SUITE_P(All, BadCurrents, testing::ValuesIn(kBadCurrents),
                          [](const auto& each) { return std::string(each.param.name); });
