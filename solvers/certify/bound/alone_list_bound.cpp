@@ -55,7 +55,7 @@ class RestingBound final : public Bound {
   Eigen::VectorXd none_;
 };
 
-std::unique_ptr<Bound> bound_of(const PlanInstant& at, Wrench wrench) {
+std::unique_ptr<Bound> bound_alone(const PlanInstant& at, Wrench wrench) {
   if (wrench == Wrench::kAny) return make_any_wrench_bound(at.task);
   if (at.rests()) return make_pure_bound(at.task, "linf_polytope");
   return std::make_unique<RestingBound>(make_instant_bound(at), at.task.redundancy());
@@ -126,7 +126,7 @@ std::vector<Alone> scenarios_alone(const Problem& problem, Wrench wrench) {
     if (one.length == 0 || !set.u_min.allFinite() || !set.u_max.allFinite()) continue;
     for (const auto& cases : choices) {
       auto at = std::make_shared<const PlanInstant>(instant_with(one.task, cases));
-      std::unique_ptr<Bound> bound = bound_of(*at, wrench);
+      std::unique_ptr<Bound> bound = bound_alone(*at, wrench);
       all.push_back({std::move(at), one.length, std::move(bound)});
     }
   }

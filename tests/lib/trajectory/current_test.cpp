@@ -25,7 +25,7 @@ Path drift(const Problem& problem, const Eigen::Vector3d& displacement, double a
                      displacement, Timing::kLinear, problem.motion->T);
 }
 
-Trajectory held_at(const Eigen::VectorXd& theta_r, const Problem& problem) {
+Trajectory held_in_flow(const Eigen::VectorXd& theta_r, const Problem& problem) {
   TrajectoryEvaluator evaluator(problem, Wrench::kPure, trajectory_solvers().front().make, false);
   evaluator.evaluate(constant_knots(problem, theta_r));
   evaluator.evaluate_between_knots();
@@ -40,7 +40,7 @@ TEST(CurrentInTime, AtRestIsTheStaticTask) {
   const Problem at_rest = scenario_task(kTurn, kFlow);
   const double beta = evaluate(at_rest, at_rest.theta_r_default).beta();
   EXPECT_NE(beta, evaluate(load_problem("uvms/valve"), at_rest.theta_r_default).beta());
-  const Trajectory resting = held_at(at_rest.theta_r_default, problem);
+  const Trajectory resting = held_in_flow(at_rest.theta_r_default, problem);
   EXPECT_NEAR(resting.value, beta, 1e-8);
   EXPECT_NEAR(resting.value_between_knots, beta, 1e-8);
   EXPECT_TRUE(resting.solution.residual.within(1e-8));
@@ -51,7 +51,7 @@ TEST(CurrentInTime, CarriedAlongIsStillWater) {
   Problem problem = turn_in_flow();
   problem.motion->path = drift(problem, problem.motion->T * kFlowVelocity, 0);
   const Problem still = load_problem("uvms/valve");
-  EXPECT_NEAR(held_at(still.theta_r_default, problem).value, 9, 1e-8);
+  EXPECT_NEAR(held_in_flow(still.theta_r_default, problem).value, 9, 1e-8);
 }
 
 /// Galilei: a path in still water, seen from axes that move at -v_c, is a path with a further
@@ -103,7 +103,7 @@ TEST(CurrentInTime, GradientIsThatOfDifferences) {
 /// A proof holds in its current only.
 TEST(CurrentInTime, IsProvenAndVerified) {
   const Problem problem = turn_in_flow();
-  const Trajectory planned = held_at(problem.theta_r_default, problem);
+  const Trajectory planned = held_in_flow(problem.theta_r_default, problem);
   const TrajectoryCertificate proof =
       certified(problem, constant_knots(problem, problem.theta_r_default));
   EXPECT_LE(proof.value, planned.value_between_knots + 1e-9);
