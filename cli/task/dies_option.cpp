@@ -67,7 +67,9 @@ void print_after(const AfterDeaths& after) {
 nlohmann::ordered_json deaths_object(const Robot& robot, const TankOptions& tank) {
   auto all = nlohmann::ordered_json::array();
   for (const ActuatorDeath& death : tank.deaths) {
-    all.push_back({{"name", actuator_name(robot, death.actuator)}, {"t", death.t}});
+    all.push_back({{"name", actuator_name(robot, death.actuator)},
+                   {"t", death.t},
+                   {"noticed_after", tank.noticed_after}});
   }
   return all;
 }

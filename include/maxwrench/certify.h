@@ -42,9 +42,9 @@ struct Proof : Verdict {
   double gap() const;
 };
 
-/// Returns what keeps a task from having a certificate: forces of a second contact, or currents.
-/// Empty if nothing does.
-std::string why_no_certificate(const Problem& task);
+/// Returns what keeps a task from having a certificate: forces of a second contact, currents, or
+/// any wrenches of a list. Empty if nothing does.
+std::string why_no_certificate(const Problem& task, Wrench wrench = Wrench::kPure);
 
 /// Searches for the best posture, and proves by branch and bound over all of theta_r how much
 /// larger a value can be.

@@ -216,7 +216,7 @@ struct Robot {
   std::vector<EndEffector> end_effectors;  ///< the end effectors
   double gravity = 9.81;                   ///< gravity along -z of the world [m/s^2]
   double water_density = 0;                ///< density of the water [kg/m^3]; zero in air
-  /// Steady velocity of the water in the world [m/s]. Only static tasks may have one.
+  /// Steady velocity of the water in the world [m/s]; in a `Problem`, that of the task.
   Eigen::Vector3d current = Eigen::Vector3d::Zero();
   Trim trim;  ///< floats and ballast
   /// The actuators (n×m): thrusters first, then one directly driven motor for each joint.

@@ -171,7 +171,7 @@ struct TaskSpec {
   std::vector<std::string> ball_axes = {};
   double ball_radius = 0;  ///< radius of the ball [N or N m]
   bool hold = false;       ///< whether the robot must also hold its posture without a wrench
-  /// Steady velocity of the water in the world, of a static task [m/s]; none: that of the robot.
+  /// Steady velocity of the water in the world [m/s]; none: that of the robot.
   std::optional<Eigen::Vector3d> current = {};
   std::optional<UncertaintySpec> uncertainty = {};  ///< what is not known
   std::optional<LossSpec> loss = {};                ///< the actuators that may be lost

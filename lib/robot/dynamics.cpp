@@ -6,6 +6,7 @@ namespace maxwrench {
 Dynamics::Dynamics(const Robot& robot)
     : robot_(&robot),
       kinematics_(robot),
+      in_current_(!robot.current.isZero(0)),
       axes_(robot.joints.size()),
       twists_(robot.links.size()),
       twist_rates_(robot.links.size()),
@@ -22,6 +23,7 @@ Dynamics::Dynamics(const Robot& robot)
 
 void Dynamics::set_configuration(const Eigen::Matrix3d& R_base, const Eigen::VectorXd& q) {
   R_base_ = R_base;
+  if (in_current_) current_.noalias() = R_base.transpose() * robot_->current;
   kinematics_.set_joints(q);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const Pose<double>& link = kinematics_.links()[i + 1];
@@ -131,6 +133,7 @@ auto Dynamics::base_twist(const Eigen::VectorXd& velocity) const -> Screw {
 void Dynamics::set_twists(const Eigen::VectorXd& velocity) {
   const auto base = static_cast<Eigen::Index>(robot_->base_axes.size());
   twists_[0] = base_twist(velocity);
+  if (in_current_) twists_[0].linear -= current_;
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const Screw& parent = twists_[robot_->joints[i].parent];
     const double& rate = velocity[base + static_cast<Eigen::Index>(i)];
@@ -145,6 +148,7 @@ void Dynamics::set_twist_rates(const Eigen::VectorXd& velocity,
                                const Eigen::VectorXd& acceleration) {
   const auto base = static_cast<Eigen::Index>(robot_->base_axes.size());
   twist_rates_[0] = base_twist(acceleration);
+  if (in_current_) twist_rates_[0].linear += twists_[0].angular.cross(current_);
   for (std::size_t i = 0; i < axes_.size(); ++i) {
     const auto k = base + static_cast<Eigen::Index>(i);
     const Screw& carrier = twists_[robot_->joints[i].parent];

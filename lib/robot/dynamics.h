@@ -17,10 +17,15 @@ namespace maxwrench {
 /// rates [m/s, rad/s]. v_d: the componentwise derivative of v; C contains the terms that arise
 /// because the axes turn. tau_d: n numbers [N, N m].
 ///
-/// The water is at rest, so a body and the water that it moves have one momentum, linear in the
-/// body's twist (Kirchhoff). Added mass is therefore an inertia that differs between axes and has
-/// Coriolis terms of its own. Added mass and drag act as given, whatever the water's density; the
-/// loader rejects them in air. Joints have no friction, motors no inertia.
+/// The water is at rest, or it is the robot's steady, uniform current v_c. In axes that move with
+/// the water it is at rest and all else is as it was (Galilei). So what counts is the twist
+/// relative to the water: that of the base has the linear part v - R'v_c, whose rate is v_d + w x
+/// R'v_c.
+///
+/// A body and the water that it moves have one momentum, linear in the body's twist (Kirchhoff).
+/// Added mass is therefore an inertia that differs between axes and has Coriolis terms of its own.
+/// Added mass and drag act as given, whatever the water's density; the loader rejects them in air.
+/// Joints have no friction, motors no inertia.
 class Dynamics {
  public:
   /// The robot must outlive this object.
@@ -74,6 +79,8 @@ class Dynamics {
   Kinematics<double> kinematics_;
   std::vector<Inertia<double>> inertia_;  ///< of each link with its water, at its origin and axes
   Eigen::Matrix3d R_base_ = Eigen::Matrix3d::Identity();
+  bool in_current_;
+  Eigen::Vector3d current_ = Eigen::Vector3d::Zero();  ///< in base axes
   std::vector<Screw> axes_;  ///< of each joint: the twist of its link per joint rate
   std::vector<Screw> twists_, twist_rates_;
   std::vector<Screw> forces_;  ///< on each link; after projection also on all links that it carries

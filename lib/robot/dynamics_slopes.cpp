@@ -64,6 +64,7 @@ void DynamicsSlopes::set(const Matrix3<double>& R_base, const Eigen::VectorXd& q
   kinematics_.set_joints(q);
   kinematics_.gravity_and_buoyancy(R_base, weight_);
   pull_ = -robot_.gravity * R_base.row(2).transpose();
+  current_ = R_base.transpose() * robot_.current;
   p_e_ = kinematics_.end_effector_position(end_effector);
   force_ = R_base.transpose() * h_e.head<3>();
   torque_ = R_base.transpose() * h_e.tail<3>();
@@ -96,6 +97,11 @@ void DynamicsSlopes::set_motion(const Eigen::VectorXd& velocity,
   for (std::size_t i = 0; i < base; ++i) {
     bodies_[0].V[robot_.base_axes[i]] = velocity[static_cast<Eigen::Index>(i)];
     bodies_[0].A[robot_.base_axes[i]] = acceleration[static_cast<Eigen::Index>(i)];
+  }
+  if (!current_.isZero(0)) {
+    const Eigen::Vector3d w = bodies_[0].V.tail<3>();
+    bodies_[0].A.head<3>() += w.cross(current_);
+    bodies_[0].V.head<3>() -= current_;
   }
   for (std::size_t i = 0; i < robot_.joints.size(); ++i) {
     const auto k = static_cast<Eigen::Index>(base + i);
@@ -188,7 +194,11 @@ void DynamicsSlopes::fill_velocities() {
     const bool joint = moves.link != 0;
     const std::size_t parent =
         joint ? static_cast<std::size_t>(robot_.joints[moves.link - 1].parent) : 0;
-    const Vector6d X = (joint ? 2 : 1) * crossed(bodies_[parent].V, moves.s);
+    Vector6d X = (joint ? 2 : 1) * crossed(bodies_[parent].V, moves.s);
+    if (!joint && !current_.isZero(0)) {
+      const Eigen::Vector3d turn = moves.s.tail<3>();
+      X.head<3>() += turn.cross(current_);
+    }
     const Body& carried = bodies_[moves.link];
     const Vector6d wrench = carried.I * X + carried.B * moves.s;
     for (Eigen::Index i = 0; i < n; ++i) {
@@ -236,7 +246,11 @@ void DynamicsSlopes::fill_turns() {
       const std::size_t link = axes_[i].link;
       if (i == 0 || link != axes_[i - 1].link)
         gained = turned_loads(link, Eigen::Vector3d::Unit(axis));
-      by_turn_(static_cast<Eigen::Index>(i), axis) = axes_[i].s.dot(gained);
+      double& slope = by_turn_(static_cast<Eigen::Index>(i), axis);
+      slope = axes_[i].s.dot(gained);
+      if (current_.isZero(0)) continue;
+      const Eigen::Vector3d swept = Eigen::Vector3d::Unit(axis).cross(current_);
+      slope += axes_[i].B_s.head<3>().dot(swept);
     }
   }
 }

@@ -20,6 +20,9 @@ namespace maxwrench {
 ///
 ///     B_k Y = Y x* I_k V_k + V_k x* I_k Y - I_k (V_k x Y) + D_k Y.
 ///
+/// The robot's current counts in V_0 and A_0, as in `Dynamics`. A turn x of the base changes all
+/// V_k by Y = (x x R'v_c, 0), with X = 0.
+///
 /// A column of the derivatives is I_k X + B_k Y, with (X, Y) = (A_p x s_j + V_p x psi_j, psi_j) by
 /// q_j, (2 psi_j, s_j) by the rate of q_j and (s_j, 0) by v_d. An entry is the product of a column
 /// with s_i, summed over the links that both i and j carry. All entries take O(n^2), because each
@@ -73,7 +76,7 @@ class DynamicsSlopes {
   std::vector<Body> bodies_;
   std::vector<Axis> axes_;
   std::size_t tool_link_ = 0;
-  Eigen::Vector3d pull_, p_e_, force_, torque_;  ///< in base axes
+  Eigen::Vector3d pull_, p_e_, force_, torque_, current_;  ///< in base axes
   Eigen::VectorXd weight_;
   Eigen::MatrixXd by_turn_, by_q_, by_v_, by_v_dot_;
 };

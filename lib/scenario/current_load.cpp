@@ -8,6 +8,7 @@ namespace {
 Robot floating_without_weight(Robot robot) {
   robot.base_axes = {0, 1, 2, 3, 4, 5};
   robot.gravity = 0;
+  robot.current.setZero();  // that of each case counts
   return robot;
 }
 

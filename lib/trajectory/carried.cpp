@@ -22,7 +22,9 @@ Vector6<T> carried_wrench(const Robot& robot, const CarriedBody& body, const Too
   const Eigen::Vector3d buoyancy = robot.water_density * body.volume * up;
 
   // In axes of the body.
-  const Vector3<T> V = back * Vector3<T>(v + swept), W = back * w;
+  Vector3<T> passed = v + swept;  // the water
+  if (!robot.current.isZero(0)) passed -= robot.current.cast<T>();
+  const Vector3<T> V = back * passed, W = back * w;
   const Vector3<T> V_dot = Vector3<T>(back * a_c) - Vector3<T>(W.cross(V)), W_dot = back * alpha;
   const auto moved = [&](const Vector3<T>& rate, Eigen::Index first) {
     Vector3<T> momentum = rate;

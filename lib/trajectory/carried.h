@@ -14,9 +14,9 @@ struct ToolMotion {
 };
 
 /// The wrench [force; torque] that the end effector exerts on 1 kg of a body that it carries, in
-/// world axes at its origin. With v, w, a, alpha its motion, c = R r, V = R'(v + w x c) and
+/// world axes at its origin. With v, w, a, alpha its motion, c = R r, V = R'(v + w x c - v_c) and
 /// W = R'w the body's own rates, a_c the acceleration of its centre of mass, I = R I_kg R' and b =
-/// rho V_kg g e_z,
+/// rho V_kg g e_z, and v_c the robot's current,
 ///
 ///     f = a_c + g e_z - b + f_A,
 ///     n = c x (a_c + g e_z + f_A) + I alpha + w x (I w) - (R r_b) x b + n_A,

@@ -151,6 +151,7 @@ std::vector<std::string> lock_outside_of_group(const UrdfStructure& structure, U
     outside.insert(name);
     if (choice.lock) continue;
     choice.lock = position_outside(group, name);
+    choice.rest_given = group.rest.contains(name);
     choice.rests = !choice.lock;
     if (choice.lock) {
       placed.push_back(fmt::format("{}={:g}", name, *choice.lock));

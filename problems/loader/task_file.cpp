@@ -101,16 +101,11 @@ void allow_keys(const Block& task) {
   } else if (type != "static") {
     task.throw_bad_value("type", "'static', 'trajectory', 'impulse' or 'transfer'");
   }
-  keys.insert(keys.end(), {"uncertainty", "loss"});
+  keys.insert(keys.end(), {"environment", "uncertainty", "loss"});
   if (type != "impulse") {
     keys.emplace_back("payload");
   } else if (task.has("payload")) {
     task.throw_bad_value("payload", "no such key in an impulse");
-  }
-  if (type == "static") {
-    keys.emplace_back("environment");
-  } else if (task.has("environment")) {
-    task.throw_bad_value("environment", "no such key except in static tasks");
   }
   task.allow_only(keys);
 }

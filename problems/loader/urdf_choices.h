@@ -23,6 +23,7 @@ struct Mimic {
 struct JointChoice {
   std::optional<double> effort, velocity, lower, upper;
   std::optional<double> lock;  ///< the joint stays at this position
+  bool rest_given = false;     ///< `lock` is from the key `rest`, so it must be within the limits
   bool rests = false;          ///< it stays at zero, or at its limit nearest to zero
   std::optional<Mimic> mimic;
 };

@@ -8,6 +8,8 @@
 #include <numbers>
 #include <set>
 
+#include "problems/make/bad_value.h"
+
 namespace maxwrench {
 namespace {
 
@@ -54,7 +56,7 @@ class Reader {
     read_mimic();
     read_range(type == "continuous");
     read_effort(to_tip);
-    if (choice_.lock) result_.locked = *choice_.lock;
+    if (choice_.lock) lock_as_chosen();
     if (choice_.rests && !result_.locked) result_.locked = nearest_to_zero();
     return result_;
   }
@@ -170,6 +172,20 @@ class Reader {
   double nearest_to_zero() const {
     const double at = std::clamp(0.0, result_.joint.q_min, result_.joint.q_max);
     return std::isfinite(at) ? at : 0.0;
+  }
+
+  void lock_as_chosen() {
+    constexpr double kRounding = 1e-9;  // decimals of files
+    result_.locked = *choice_.lock;
+    const Joint& joint = result_.joint;
+    const double at = *choice_.lock;
+    if (at >= joint.q_min - kRounding && at <= joint.q_max + kRounding) return;
+    const std::string limits = fmt::format("{:g} .. {:g}", joint.q_min, joint.q_max);
+    if (choice_.rest_given) {
+      throw BadValue("rest", fmt::format("{} = {:g}", joint.name, at),
+                     fmt::format("a position within its limits {}", limits));
+    }
+    warn("limit", fmt::format("{}: the joint is locked outside, at {:g}", limits, at));
   }
 
   /// Where nothing drives the joint.

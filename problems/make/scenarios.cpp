@@ -8,6 +8,7 @@
 #include "lib/math/decompositions.h"
 #include "lib/math/rotated.h"
 #include "lib/robot/chain.h"
+#include "lib/scenario/current_load.h"
 #include "problems/make/bad_value.h"
 #include "problems/make/losses.h"
 #include "problems/make/payload.h"
@@ -138,6 +139,15 @@ void require_known_loads(const UncertaintySpec& uncertainty) {
   require_none(uncertainty.current_speed != 0 || !uncertainty.current_vectors.empty(), "current");
 }
 
+/// Rejects a payload at rest on whose added mass A a current V exerts the moment V x (A V).
+void require_no_moment_of_payload(const TaskSpec& task, const ScenarioList& list) {
+  if (!list.payload || !has_current(list)) return;
+  const Vector6d& A = task.payload->added_mass;
+  if (A[0] == A[1] && A[1] == A[2]) return;
+  throw BadValue("payload.added_mass_per_kg", shown(A),
+                 "the same along all axes, in a static task in a current");
+}
+
 /// Rejects a list whose trajectory programs would be too large.
 void require_few_knots(double scenarios, const MotionTask& motion) {
   if (scenarios == 1 || scenarios * motion.k <= kMostKnotsOfList) return;
@@ -152,10 +162,6 @@ void set_wrenches(const TaskSpec& task, Problem& problem) {
   if (problem.motion && given.key == "wrench.ball") {
     throw BadValue(given.key, given.got,
                    "no such key except in static tasks; wrench.set lists wrenches in time");
-  }
-  if (problem.motion && !current_of(task).isZero(0)) {
-    throw BadValue("environment.current", shown(current_of(task)),
-                   "no such key except in static tasks");
   }
   if (task.payload) return set_payload(task, problem);
   if (problem.motion && problem.motion->table) return set_table(task, problem);
@@ -222,7 +228,14 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
                    "0 in tasks in time, where friction opposes the rate of a joint");
   }
   list.loads = uncertain_loads(uncertainty, problem);
-  if (!current_of(task).isZero(0)) list.loads.push_back(known_current(task, problem.robot));
+  if (!current_of(task).isZero(0)) {
+    LoadGroup single = known_current(task, problem.robot);
+    problem.robot.current = single.front().current;
+    if (!problem.motion) list.loads.push_back(std::move(single));
+  } else {
+    problem.robot.current.setZero();
+  }
+  require_no_moment_of_payload(task, list);
   const std::vector<ActuatorLimits> limits = actuator_limits(task.loss, uncertainty, problem.robot);
   double corners = 1;
   for (const LoadGroup& group : list.loads) corners *= static_cast<double>(group.size());

@@ -69,7 +69,7 @@ py::object certify_task(const py::object& task, const py::object& theta_r, doubl
   ProofOptions how;
   how.gap = gap;
   how.seconds = seconds;
-  how.keep_certificate = why_no_certificate(*of.problem).empty();
+  how.keep_certificate = why_no_certificate(*of.problem, options.wrench).empty();
   PyProof result{{}, of};
   const Callback shown(callback, 0, of.problem->name);
   run_in_background(shown.function(), [&](Watch& watch) {

@@ -147,14 +147,15 @@ Proof certify(const Problem& task, const Options& options, const ProofOptions& h
   return proof;
 }
 
-std::string why_no_certificate(const Problem& task) {
+std::string why_no_certificate(const Problem& task, Wrench wrench) {
   if (task.contact_columns() > 0) return "a task with forces of a second contact";
+  if (wrench == Wrench::kAny && !task.scenarios.empty()) return "any wrenches of a list";
   return has_current(task.scenarios) ? "a task with currents" : "";
 }
 
 Proof certify(const Problem& task, const Options& options, const ProofOptions& how) {
   if (!how.keep_certificate) return certify(task, options, how, nullptr);
-  if (const std::string got = why_no_certificate(task); !got.empty()) {
+  if (const std::string got = why_no_certificate(task, options.wrench); !got.empty()) {
     throw std::invalid_argument("keep_certificate: got " + got + ", expected one without");
   }
   ProofRecorder recorder;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "maxwrench/problem.h"
@@ -22,8 +24,13 @@ namespace {
 }
 
 /// Whether an actuator of the limits has a brake or friction. Those of the first limits are all
-/// driven. Others are lost with limits of 0, or as weak as they may be, on one side of 0.
+/// driven. Others are lost with limits of 0, or as weak as they may be, on one side of 0. A brake
+/// that holds as much as the motor has the same limits, so that only the name of the loss tells.
 bool resists(const ScenarioLimits& limits, const ScenarioLimits& driven) {
+  constexpr std::string_view kLocked = " locked";
+  if (limits.name.ends_with(kLocked) || limits.name.find(" locked and ") != std::string::npos) {
+    return true;
+  }
   for (Eigen::Index i = 0; i < limits.actuation.u_max.size(); ++i) {
     const double low = limits.actuation.u_min[i], high = limits.actuation.u_max[i];
     if (low < 0 && high > 0 &&

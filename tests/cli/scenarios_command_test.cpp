@@ -85,6 +85,17 @@ TEST(ScenariosCommand, SimulatesAndProvesEachScenarioInTime) {
   EXPECT_NEAR(checked["guaranteed"], 12.0718, 0.001);
 }
 
+TEST(ScenariosCommand, TellsWhenAFailureIsNoticed) {
+  const json object =
+      json::parse(run_maxwrench("simulate uvms/lift --planned 14.5 --dies front_left_vertical=5.5 "
+                                "--noticed-after 0.25 --json")
+                      .out);
+  ASSERT_EQ(object["dies"].size(), 1u);
+  EXPECT_EQ(object["dies"][0]["name"], "front_left_vertical");
+  EXPECT_EQ(object["dies"][0]["t"], 5.5);
+  EXPECT_EQ(object["dies"][0]["noticed_after"], 0.25);
+}
+
 /// Each is rejected in one line that names the option.
 TEST(ScenariosCommand, RejectsWhatCannotDie) {
   for (const std::string words :

@@ -234,6 +234,9 @@ TEST_F(SrdfGroup, WrongGroupsAreNamedInOneLine) {
   bad.rest = {{"tail", 0.1}};
   EXPECT_THAT(error_of(bad), HasSubstr("rest: got 'tail'"));
   bad = options("left");
+  bad.rest = {{"waist", 100}};
+  EXPECT_THAT(error_of(bad), HasSubstr("rest: got waist = 100, expected a position within its "
+                                       "limits "));
   bad.rest_posture = "down";
   EXPECT_THAT(error_of(bad),
               HasSubstr("rest: got 'down', expected a named posture of the SRDF: up"));

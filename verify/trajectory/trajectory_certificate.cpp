@@ -33,6 +33,7 @@ void put_dynamics(ByteWriter& to, const Robot& robot) {
     to.real(joint.gear->offset);
   }
   to.matrix(robot.u_rate_max);
+  if (!robot.current.isZero(0)) to.matrix(robot.current);
 }
 
 void put_motion(ByteWriter& to, const MotionTask& task) {

@@ -83,17 +83,24 @@ JetVector<N> upward(const Narrow& force) {
 
 }  // namespace
 
-/// Against weight, buoyancy, inertia and drag.
+/// Against weight, buoyancy, inertia and drag. With a current v_c, momentum is that of the twist
+/// relative to the water: in axes that move with it, a fixed point moves at -v_c.
 template <int N>
 auto TrajectoryModel::force_on(std::size_t link, const Frame<N>& at) const -> Wrenches<N - 2> {
   const Robot& robot = problem_.robot;
   const Link& body = robot.links[link];
   const JetMatrix<N - 1> R = shortened<N - 1>(at.R), back = transposed(R);
-  const LinkScrew<N - 1> twist = {back * derivative(at.p), skew_part(back * derivative(at.R))};
+  const JetVector<N - 1> current = constant_jets<N - 1>(robot.current);
+  const LinkScrew<N - 1> twist = {back * (derivative(at.p) - current),
+                                  skew_part(back * derivative(at.R))};
   const LinkScrew<N - 1> momentum = momentum_of(body, twist);
   const JetVector<N - 1> P = R * momentum.linear;
   const JetVector<N - 1> H = R * momentum.angular + cross(shortened<N - 1>(at.p), P);
   Wrenches<N - 2> sum{derivative(P), derivative(H)};
+  if (!robot.current.isZero(0)) {
+    // H is about a fixed point, which the water passes.
+    sum.torque = sum.torque - cross(constant_jets<N - 2>(robot.current), shortened<N - 2>(P));
+  }
   const JetMatrix<N - 2> turn = shortened<N - 2>(at.R);
   const JetVector<N - 2> origin = shortened<N - 2>(at.p);
   const auto add = [&sum](const JetVector<N - 2>& place, const JetVector<N - 2>& force) {

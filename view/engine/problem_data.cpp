@@ -240,6 +240,9 @@ std::string why_no_engine(const Problem& problem) {
   if (problem.motion && !problem.scenarios.empty()) {
     return problem.name + ": a list of scenarios in time, expected one wrench";
   }
+  if (problem.motion && !problem.robot.current.isZero(0)) {
+    return problem.name + ": a task in time in a current, expected still water";
+  }
   if (problem.motion && problem.motion->thruster_lag != 0) {
     return problem.name + ": a lag of thrusters, expected thrust without lag";
   }

@@ -57,9 +57,22 @@ std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem);
 ///
 /// is a bound as above. It combines the facets of all scenarios that have to do with a box; all
 /// others have lambda_s = 0. The multiplier is [numbers of s; lambda_s] of each scenario with
-/// lambda_s, and nu. Throws std::invalid_argument, with one line, as `ListModel` and for any
-/// wrenches.
+/// lambda_s, and nu. Throws std::invalid_argument, with one line, as `ListModel`. Any wrenches, and
+/// a load that always has a current, have the bound `make_alone_list_bound`.
 std::unique_ptr<Bound> make_list_bound(const Problem& problem, Wrench wrench);
+
+/// Whether each load has a case without a current, so that such scenarios bound the list.
+bool has_still_water(const ScenarioList& list);
+
+/// A bound of linf_polytope of a list: a value of the list is a factor of every scenario, so it
+/// does not exceed the bound of any scenario alone. The least of these is the bound; it stays above
+/// the optimum where two scenarios meet in a ridge. A scenario in a current v_c is an instant of a
+/// motion at -v_c through still water (`make_instant_bound`). The multiplier is [number of the
+/// scenario; its own multiplier]; scenarios that only hold and those with infinite limits are left
+/// out. Throws std::invalid_argument, with one line, for a ball, a payload, a pose that is partly
+/// free, dependent joints, any wrenches in a current and more than 64 scenarios, and as the bounds
+/// of single tasks.
+std::unique_ptr<Bound> make_alone_list_bound(const Problem& problem, Wrench wrench);
 
 /// Magnitudes of tau and a in the six axes of the base, beyond the limits of sliding coordinates.
 struct CeilingSizes {

@@ -330,9 +330,8 @@ class ListBound final : public Bound {
 }  // namespace
 
 std::unique_ptr<Bound> make_list_bound(const Problem& problem, Wrench wrench) {
-  if (wrench == Wrench::kAny) {
-    throw std::invalid_argument("certify: got wrench any, expected pure for a list of scenarios (" +
-                                problem.name + ")");
+  if (wrench == Wrench::kAny || !has_still_water(problem.scenarios)) {
+    return make_alone_list_bound(problem, wrench);
   }
   return std::make_unique<ListBound>(std::make_shared<const ListModel>(problem));
 }

@@ -83,9 +83,7 @@ void ListModel::leave_out() {
       cases.push_back(load);
       numbers.push_back(static_cast<int>(i));
     }
-    if (cases.empty())
-      reject_list(problem_, "currents without still water, which have no bound",
-                  "uncertainty.current with still water, or no current");
+    if (cases.empty()) reject_list(problem_, "a load that always has a current", "still water");
   }
 }
 

@@ -84,6 +84,17 @@ TEST(DynamicsSlopes, OfABaseThatMovesInSomeWaysOnly) {
   }
 }
 
+TEST(DynamicsSlopes, InACurrent) {
+  Random random(36);
+  for (const std::vector<int>& axes :
+       {std::vector<int>{0, 1, 2, 3, 4, 5}, {}, {0, 1, 5}, {2, 4}, {5}}) {
+    Robot robot = random_wet_robot(random, 4);
+    robot.base_axes = axes;
+    robot.current = random_numbers(random, 3);
+    expect_all_slopes(robot, random_argument(robot, random), 1e-7);
+  }
+}
+
 TEST(DynamicsSlopes, OfAToolOnTheBaseOrHalfWayUp) {
   Random random(33);
   for (int link = 0; link < 5; ++link) {

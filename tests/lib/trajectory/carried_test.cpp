@@ -74,9 +74,10 @@ TEST(CarriedBody, IsWhatMakesTheInverseDynamicsHeavier) {
     problem.motion->path =
         Path::screw(problem.pose, any_vector(random, 1).normalized(), any_vector(random, 0.5), 1.5,
                     any_vector(random, 1), Timing::kCubic, 2);
-    TrajectoryEvaluator evaluator(problem, Wrench::kPure, [] { return make_trajectory_ipm(); });
     Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
     for (double& entry : knots.reshaped()) entry += 0.05 * random.normal();
+    if (sample % 2 == 1) problem.robot.current = any_vector(random, 0.3);
+    TrajectoryEvaluator evaluator(problem, Wrench::kPure, [] { return make_trajectory_ipm(); });
     const Robot heavier = loaded(problem.robot, tool, body);
     Dynamics dynamics(heavier);
     evaluator.evaluate(knots);

@@ -149,6 +149,14 @@ TEST(TankScenarios, RejectsWhatTheTankCannotBe) {
   brake = with_limits(brake, -Eigen::VectorXd::Constant(brake.u_min.size(), 1e4),
                       Eigen::VectorXd::Constant(brake.u_min.size(), 1e4));
   EXPECT_THAT(rejection_of([&] { require_tank_scenarios(locked); }), HasSubstr("locked"));
+  // A brake that holds as much as the motor exerts.
+  Problem as_strong = load_problem(example("lift_with_a_dead_thruster"));
+  ScenarioLimits& held = as_strong.scenarios.limits[1];
+  held.actuation = as_strong.scenarios.limits[0].actuation;
+  for (const char* name : {"q2_shoulder_pitch locked", "q2_shoulder_pitch locked and a dead"}) {
+    held.name = name;
+    EXPECT_THAT(rejection_of([&] { require_tank_scenarios(as_strong); }), HasSubstr("locked"));
+  }
   // A brake or friction that is weaker than the drive.
   Problem resisting = load_problem(example("lift_with_a_dead_thruster"));
   Zonotope& left = resisting.scenarios.limits[1].actuation;

@@ -219,9 +219,7 @@ TEST(ListBound, RejectsWhatItCannotBound) {
     return rejection_of([&] { make_capability_bound(task, "linf_polytope", allowed); });
   };
   const std::string set = "set = [[1,0,0,0,0,0]]";
-  EXPECT_TRUE(line(set, "", Wrench::kAny).starts_with("certify: got wrench any, expected pure"));
-  EXPECT_TRUE(line(set, "[uncertainty]\ncurrent = { vectors = [[0.3, 0, 0]] }\n", Wrench::kPure)
-                  .starts_with("certify: got currents without still water"));
+  EXPECT_EQ(line(set, "", Wrench::kAny), "accepted");
   Problem many = scenario_task(set, "");
   many.robot.actuation.has_facets = false;
   EXPECT_TRUE(rejection_of([&] {

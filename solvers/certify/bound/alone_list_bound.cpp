@@ -1,0 +1,218 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lib/scenario/scenario_list.h"
+#include "solvers/certify/bound/bounds.h"
+#include "solvers/certify/trajectory/instant_bound.h"
+#include "solvers/solve/scenario_alone.h"
+
+namespace maxwrench {
+namespace {
+
+/// Each box may try all of them.
+constexpr std::size_t kMostAlone = 64;
+
+[[noreturn]] void reject_alone(const Problem& problem, const std::string& got,
+                               const std::string& expected) {
+  throw std::invalid_argument("certify: got " + got + ", expected " + expected + " (" +
+                              problem.name + ")");
+}
+
+/// One scenario with its bound, which refers to the instant or its task.
+struct Alone {
+  std::shared_ptr<const PlanInstant> at;  ///< the task; x is the motion relative to the water
+  double length = 1;                      ///< of the wrench for a factor of 1
+  std::unique_ptr<Bound> bound;
+};
+
+/// The bound of a posture that rests in a current, in axes that move with the water: an instant of
+/// a motion at -v_c without rates of theta_r.
+class RestingBound final : public Bound {
+ public:
+  RestingBound(std::unique_ptr<Bound> instant, Eigen::Index r)
+      : instant_(std::move(instant)), none_(Eigen::VectorXd::Zero(r)) {}
+
+  double ceiling() const override { return instant_->ceiling(); }
+  void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
+                BoxProof& proof) override {
+    Eigen::VectorXd least(2 * none_.size()), most(2 * none_.size());
+    least << lower, none_;
+    most << upper, none_;
+    instant_->evaluate(least, most, low, high, proof);
+    if (proof.axis >= none_.size()) proof.axis = -1;
+  }
+  std::unique_ptr<Bound> clone() const override {
+    return std::make_unique<RestingBound>(instant_->clone(), none_.size());
+  }
+
+ private:
+  std::unique_ptr<Bound> instant_;
+  Eigen::VectorXd none_;
+};
+
+std::unique_ptr<Bound> bound_alone(const PlanInstant& at, Wrench wrench) {
+  if (wrench == Wrench::kAny) return make_any_wrench_bound(at.task);
+  if (at.rests()) return make_pure_bound(at.task, "linf_polytope");
+  return std::make_unique<RestingBound>(make_instant_bound(at), at.task.redundancy());
+}
+
+/// A task with the wet masses and first moments of the cases, and at -v_c of their current.
+PlanInstant instant_with(const Problem& alone, const std::vector<const LoadCase*>& cases) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(alone.redundancy());
+  PlanInstant at{
+      alone, {}, {{alone.theta_r_min, alone.theta_r_max}, {none, none}, {none, none}}, false};
+  at.x.pose = alone.pose;
+  at.x.twist.setZero();
+  at.x.acceleration.setZero();
+  Robot& robot = at.task.robot;
+  robot.parts.clear();
+  robot.current.setZero();
+  for (const LoadCase* load : cases) {
+    at.x.twist.head<3>() -= load->current;
+    for (const LinkLoad& change : load->loads) {
+      Link& link = robot.links[static_cast<std::size_t>(change.link)];
+      const Eigen::Vector3d moment = link.mass * link.com + change.moment;
+      link.mass += change.mass;
+      // Only its weight counts, so a link may weigh less than nothing, but not nothing.
+      if (std::abs(link.mass) < 1e-6 * (1 + std::abs(change.mass))) {
+        reject_alone(alone, "a load that takes all mass of '" + link.name + "'", "a heavier link");
+      }
+      link.com = moment / link.mass;
+    }
+  }
+  return at;
+}
+
+/// All choices of one case from each group; with any wrenches, of those without a current.
+std::vector<std::vector<const LoadCase*>> choices_of(const Problem& problem, Wrench wrench) {
+  std::vector<std::vector<const LoadCase*>> all = {{}};
+  for (const LoadGroup& group : problem.scenarios.loads) {
+    std::vector<std::vector<const LoadCase*>> longer;
+    for (const auto& some : all) {
+      for (const LoadCase& load : group) {
+        if (wrench == Wrench::kAny && !load.current.isZero()) continue;
+        longer.push_back(some);
+        longer.back().push_back(&load);
+      }
+      if (longer.size() > kMostAlone) break;  // rejected by its caller
+    }
+    if (longer.empty()) {
+      reject_alone(problem, "any wrenches in a current, which have no bound", "wrench pure");
+    }
+    all = std::move(longer);
+  }
+  return all;
+}
+
+/// The scenarios with a wrench and finite limits.
+std::vector<Alone> scenarios_alone(const Problem& problem, Wrench wrench) {
+  const auto choices = choices_of(problem, wrench);
+  const int count = scenario_count(problem);
+  if (static_cast<std::size_t>(count) * choices.size() > kMostAlone) {
+    reject_alone(problem,
+                 wrench == Wrench::kAny ? "any wrenches of a list with many scenarios"
+                                        : "a known current with many scenarios",
+                 "at most " + std::to_string(kMostAlone) + " of them");
+  }
+  std::vector<Alone> all;
+  for (int i = 0; i < count; ++i) {
+    const ScenarioTask one = scenario_alone(problem, i);
+    const Zonotope& set = one.task.robot.actuation;
+    if (one.length == 0 || !set.u_min.allFinite() || !set.u_max.allFinite()) continue;
+    for (const auto& cases : choices) {
+      auto at = std::make_shared<const PlanInstant>(instant_with(one.task, cases));
+      std::unique_ptr<Bound> bound = bound_alone(*at, wrench);
+      all.push_back({std::move(at), one.length, std::move(bound)});
+    }
+  }
+  if (all.empty()) reject_alone(problem, "no scenario with finite limits", "one");
+  return all;
+}
+
+/// The least of the bounds of the scenarios. The multiplier is [number of the scenario; its own].
+class AloneListBound final : public Bound {
+ public:
+  explicit AloneListBound(std::vector<Alone> scenarios) : scenarios_(std::move(scenarios)) {}
+
+  double ceiling() const override {
+    double least = kInfinity;
+    for (const Alone& each : scenarios_) {
+      least = std::min(least, up(each.bound->ceiling() / each.length));
+    }
+    return least;
+  }
+
+  void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
+                BoxProof& proof) override {
+    const bool known = proof.multiplier.size() > 0;
+    const auto first = static_cast<std::size_t>(known ? proof.multiplier[0] : 0);
+    BoxProof larger;  // what is known of the scenario that bounded the larger box
+    if (known) larger.multiplier = proof.multiplier.tail(proof.multiplier.size() - 1);
+    larger.basis = std::exchange(proof.basis, {});
+    larger.axis = proof.axis;
+    proof.forget(high);
+    // A value of the list may be below the lower end of a scenario by kEndTolerance (1 + |high|).
+    const double most = high + 2 * kEndTolerance * (1 + std::abs(high));
+    for (std::size_t k = 0; k < scenarios_.size() && proof.high > low; ++k) {
+      const std::size_t s = (first + k) % scenarios_.size();
+      const Alone& each = scenarios_[s];
+      BoxProof own;
+      if (s == first) own = larger;
+      each.bound->evaluate(lower, upper, down(low * each.length), up(most * each.length), own);
+      const double factor = up(own.high / each.length);
+      if (!(factor < proof.high)) continue;
+      Eigen::VectorXd numbers(own.multiplier.size() + 1);
+      numbers << static_cast<double>(s), own.multiplier;
+      proof.improve(factor, numbers);
+      proof.basis = own.basis;
+    }
+  }
+
+  std::unique_ptr<Bound> clone() const override {
+    std::vector<Alone> copies;
+    for (const Alone& each : scenarios_) {
+      copies.push_back({each.at, each.length, each.bound->clone()});
+    }
+    return std::make_unique<AloneListBound>(std::move(copies));
+  }
+
+ private:
+  /// Beyond the rounding of a product or quotient.
+  static constexpr double kFactorRounding = 4 * std::numeric_limits<double>::epsilon();
+  static double up(double x) { return x + kFactorRounding * std::abs(x); }
+  static double down(double x) { return x - kFactorRounding * std::abs(x); }
+
+  std::vector<Alone> scenarios_;
+};
+
+}  // namespace
+
+bool has_still_water(const ScenarioList& list) {
+  return std::all_of(list.loads.begin(), list.loads.end(), [](const LoadGroup& group) {
+    return std::any_of(group.begin(), group.end(),
+                       [](const LoadCase& load) { return load.current.isZero(); });
+  });
+}
+
+std::unique_ptr<Bound> make_alone_list_bound(const Problem& problem, Wrench wrench) {
+  const ScenarioList& list = problem.scenarios;
+  const char* const where = wrench == Wrench::kAny ? "any wrenches" : "a known current";
+  if (list.ball || list.payload) {
+    reject_alone(problem, std::string(where) + " with a ball or a payload", "wrenches one by one");
+  }
+  if (problem.contact || !problem.dependent.empty() || problem.free.count() > 0) {
+    reject_alone(problem,
+                 std::string(where) +
+                     " at a pose that is partly free, or with dependent "
+                     "joints",
+                 "a fixed pose and a base that follows in closed form");
+  }
+  return std::make_unique<AloneListBound>(scenarios_alone(problem, wrench));
+}
+
+}  // namespace maxwrench

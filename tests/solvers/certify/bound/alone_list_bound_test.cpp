@@ -1,0 +1,125 @@
+#include <gtest/gtest.h>
+
+#include "maxwrench/batch.h"
+#include "maxwrench/bound.h"
+#include "maxwrench/certify.h"
+#include "maxwrench/objective.h"
+#include "maxwrench/solve.h"
+#include "solvers/solve/method.h"
+#include "tests/support/boxes.h"
+#include "tests/support/coded_tasks.h"
+#include "tests/support/scenario_task.h"
+#include "tests/support/support.h"
+
+namespace maxwrench {
+namespace {
+
+struct AloneForm {
+  const char* wrench;
+  std::string tables;
+  Wrench allowed;
+};
+
+std::vector<AloneForm> alone_forms() {
+  const std::string flow = "[environment]\ncurrent = [0.4, -0.2, 0.1]\n";
+  const std::string loss =
+      "[loss]\ncases = [[\"front_left_vertical\"], [\"rear_right_vertical\"]]\n";
+  return {{kLift, flow, Wrench::kPure},
+          {kTurn, flow, Wrench::kPure},
+          {kTurn, flow + loss + "[uncertainty]\nmass.link_4 = 0.1\n", Wrench::kPure},
+          {"set = [[0, 0, 20, 0, 0, 0], [0, 0, 0, 0, 0, 2]]", flow, Wrench::kPure},
+          {kTurn, loss, Wrench::kAny},
+          {kLift, loss + "[uncertainty]\ntrim = 0.2\ncom.link_2 = [0.01, 0, 0]\n", Wrench::kAny},
+          {"set = [[0, 0, 0, 0, 0, 3], [0, 0, 0, 0, 0, -2]]", "", Wrench::kAny}};
+}
+
+/// No posture of a box exceeds its bound, and that of a small box is close.
+TEST(AloneListBound, NoPostureExceedsIt) {
+  for (const AloneForm& form : alone_forms()) {
+    Problem task = scenario_task(form.wrench, form.tables);
+    task.robot.collision = nullptr;
+    Options options;
+    options.wrench = form.allowed;
+    const auto bound = make_capability_bound(task, "linf_polytope", form.allowed);
+    const auto copy = bound->clone();
+    const auto objective =
+        make_capability_objective(task, form.allowed, resolve(task, options).make_measure);
+    Random random(4);
+    long valued = 0, tight = 0;
+    const double ceiling = bound->ceiling();
+    for (int i = 0; i < samples(20); ++i) {
+      const RandomBox box = random_box(task, random);
+      const double low = evaluate_one(*objective, (box.lower + box.upper) / 2);
+      const double from = std::isfinite(low) ? low : 0;
+      BoxProof proof;
+      bound->evaluate(box.lower, box.upper, from, ceiling, proof);
+      BoxProof half = proof, again;
+      Eigen::VectorXd upper = box.upper, inside = box.lower;
+      upper[0] = (box.lower[0] + box.upper[0]) / 2;
+      bound->evaluate(box.lower, upper, from, proof.high, half);
+      copy->evaluate(box.lower, box.upper, from, ceiling, again);
+      EXPECT_EQ(again.high, proof.high);
+      for (int k = 0; k < 8; ++k) {
+        for (Eigen::Index j = 0; j < inside.size(); ++j) {
+          inside[j] = random.uniform(box.lower[j], box.upper[j]);
+        }
+        const double value = evaluate_one(*objective, inside);
+        if (!std::isfinite(value)) continue;
+        ++valued;
+        const double slack = 1e-8 * (1 + std::abs(value));
+        ASSERT_LE(value, std::max(proof.high, from) + slack) << form.tables << i;
+        tight += value > 0.9 * std::max(proof.high, from);
+        if (inside[0] > upper[0]) continue;
+        ASSERT_LE(value, std::max(half.high, from) + slack) << form.tables << i;
+      }
+    }
+    EXPECT_GT(valued, 0) << form.tables;
+    EXPECT_GT(tight, 0) << form.tables;
+  }
+}
+
+/// With almost no current it is the bound of the task in still water.
+TEST(AloneListBound, OfAlmostNoCurrentIsThatOfStillWater) {
+  Problem still = scenario_task(kTurn, "");
+  Problem slow = scenario_task(kTurn, "[environment]\ncurrent = [1e-9, 0, 0]\n");
+  still.robot.collision = slow.robot.collision = nullptr;
+  const auto expected = make_capability_bound(still, "linf_polytope", Wrench::kPure);
+  const auto found = make_capability_bound(slow, "linf_polytope", Wrench::kPure);
+  Random random(6);
+  for (int i = 0; i < samples(20); ++i) {
+    const Eigen::VectorXd at = random_theta_r(still, random);
+    BoxProof a, b;
+    expected->evaluate(at, at, 0, 1e3, a);
+    found->evaluate(at, at, 0, 1e3, b);
+    EXPECT_NEAR(a.high, b.high, 1e-2 * (1 + a.high));
+  }
+}
+
+/// The search and the proof enclose the best posture in a current.
+TEST(AloneListBound, SLOW_ProvesTheBestPostureInAKnownCurrent) {
+  const Problem task = scenario_task(kLift, "[environment]\ncurrent = [0.3, 0, 0]\n");
+  const Proof proof = certify(task, Options(), {.gap = 1e-2, .seconds = 600});
+  EXPECT_EQ(proof.status, Status::kProven);
+  EXPECT_LE(proof.gap(), 1e-2 * (1 + 1e-9));
+  EXPECT_GT(proof.answer.capability.beta, evaluate(task, task.theta_r_default).beta());
+  EXPECT_THROW(certify(task, Options(), {.gap = 1e-2, .keep_certificate = true}),
+               std::invalid_argument);
+}
+
+TEST(AloneListBound, RejectsWhatItDoesNotBound) {
+  const auto rejects = [](const char* wrench, const std::string& tables, Wrench allowed) {
+    const Problem task = scenario_task(wrench, tables);
+    return rejection_of([&] { make_capability_bound(task, "linf_polytope", allowed); });
+  };
+  const std::string flow = "[environment]\ncurrent = [0.3, 0, 0]\n";
+  EXPECT_NE(rejects(kLift, flow, Wrench::kAny).find("any wrenches in a current"),
+            std::string::npos);
+  EXPECT_NE(rejects("ball = { axes = [\"fx\", \"fy\"], radius = 1 }", flow, Wrench::kPure)
+                .find("a known current with a ball"),
+            std::string::npos);
+  EXPECT_NE(rejects(kLift, flow + "[loss]\nany = 3\n", Wrench::kPure).find("at most 64"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace maxwrench
