@@ -1,7 +1,9 @@
 #include "lib/trajectory/window_evaluator.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "lib/trajectory/clearance.h"
 #include "lib/trajectory/limits.h"

@@ -1,6 +1,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <string>
+#include <vector>
+
 #include "lib/math/random.h"
 #include "lib/trajectory/task_of.h"
 #include "maxwrench/problem.h"

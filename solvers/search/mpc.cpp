@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <span>
+#include <string>
+#include <vector>
 
 #include "lib/math/random.h"
 #include "lib/trajectory/task_of.h"
