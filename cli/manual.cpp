@@ -5,6 +5,7 @@
 
 #include "cli/cli.h"
 #include "maxwrench/load.h"
+#include "maxwrench/path_searches.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/version.h"
 
@@ -92,6 +93,7 @@ std::string choices(const std::string& option) {
     add(searches());
     add(trajectory_searches());
     add(facet_searches());
+    add(path_searches());
     add(transfer_searches());
   }
   if (option == "--integrator") add(integrators());

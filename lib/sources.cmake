@@ -20,4 +20,4 @@ set(maxwrench_lib_sources
   trajectory/limits.cpp trajectory/motion_evaluator.cpp trajectory/motion_scenarios.cpp trajectory/objective.cpp
   trajectory/overshoot.cpp trajectory/path.cpp trajectory/program.cpp trajectory/robot_motion.cpp trajectory/scheme.cpp
   trajectory/trajectory.cpp trajectory/trajectory_program.cpp trajectory/trajectory_residual.cpp
-  trajectory/transfer_dynamics.cpp trajectory/workspace.cpp)
+  trajectory/transfer_dynamics.cpp trajectory/window_evaluator.cpp trajectory/workspace.cpp)

@@ -12,6 +12,7 @@
 
 #include "lib/math/require.h"
 #include "maxwrench/batch.h"
+#include "maxwrench/path_searches.h"
 #include "maxwrench/robot.h"
 #include "maxwrench/strategies.h"
 
@@ -175,8 +176,8 @@ void add_search(SearchEntry entry) {
   bool taken = std::any_of(absent.begin(), absent.end(), [&entry](const Absent& other) {
     return std::string_view(other.family) == "search" && std::string_view(other.name) == entry.name;
   });
-  for (const auto table :
-       {trajectory_searches(), searches(), facet_searches(), transfer_searches()}) {
+  for (const auto table : {trajectory_searches(), searches(), facet_searches(), transfer_searches(),
+                           path_searches()}) {
     taken = taken || any_named(table, entry.name);
   }
   keep_texts("search", taken, entry);

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "maxwrench/path_searches.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/solve.h"
 #include "solvers/integrator/makers.h"
@@ -236,6 +237,16 @@ std::span<const SearchEntry> trajectory_searches() {
 #endif
   };
   return kTrajectorySearches;
+}
+std::span<const SearchEntry> path_searches() {
+  static const SearchEntry kPathSearches[] = {
+      {"gradient_projection", "local baseline along a path: the projected gradient at each instant",
+       true, make_gradient_projection, false, 0, 1, true},
+      {"mpc",
+       "receding horizon along a path: sequential linear programming over the next intervals",
+       false, make_mpc, false, 0, 1, true},
+  };
+  return kPathSearches;
 }
 std::span<const SearchEntry> transfer_searches() {
   static const std::vector<SearchEntry> kTransferSearches = make_transfer_searches();

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "maxwrench/path_searches.h"
 #include "maxwrench/strategies.h"
 #include "solvers/added_strategies.h"
 #include "solvers/search/composition.h"
@@ -100,10 +101,10 @@ const TrajectorySolverEntry& find_trajectory_solver(std::string_view name) {
   return find(trajectory_solvers(), "solver", name);
 }
 NamedSearch find_search(std::string_view name) {
-  return find_stages(
-      with_added({trajectory_searches(), searches(), facet_searches(), transfer_searches()},
-                 added_searches()),
-      name);
+  return find_stages(with_added({trajectory_searches(), searches(), facet_searches(),
+                                 transfer_searches(), path_searches()},
+                                added_searches()),
+                     name);
 }
 std::unique_ptr<Search> NamedSearch::make() const {
   if (restarts) return make_restart({name, false, stages, local});

@@ -5,6 +5,7 @@
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "maxwrench/load.h"
+#include "maxwrench/path_searches.h"
 #include "maxwrench/strategies.h"
 
 namespace maxwrench {
@@ -48,6 +49,7 @@ int list() {
               trajectory_searches());
   print_table("searches between facets: for static tasks with linf_polytope and few facets",
               facet_searches());
+  print_table("searches for tasks along a path", path_searches());
   print_table("searches for transfers", transfer_searches());
   print_table("integrators", integrators());
   for (const Absent& absent : not_built_in()) {

@@ -78,12 +78,17 @@ class InstantEvaluator {
   Capability capability_;
 };
 
-/// An objective that can evaluate instants by themselves, for searches over them.
+class WindowEvaluator;
+
+/// An objective that can evaluate instants and stretches of a motion by themselves, for searches
+/// over them.
 class InstantSource {
  public:
   virtual ~InstantSource() = default;
   virtual std::unique_ptr<InstantEvaluator> make_instants(
       const InstantEvaluator::SolverMaker& make) const = 0;
+  /// Of a task along a path.
+  virtual std::unique_ptr<WindowEvaluator> make_window(SchemeMaps maps) const = 0;
 };
 
 }  // namespace maxwrench

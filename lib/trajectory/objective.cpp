@@ -8,6 +8,7 @@
 
 #include "lib/trajectory/instant_evaluator.h"
 #include "lib/trajectory/task_of.h"
+#include "lib/trajectory/window_evaluator.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/trajectory.h"
 
@@ -89,6 +90,9 @@ class ObjectiveOfTrajectories final : public TrajectoryObjective, public Instant
   std::unique_ptr<InstantEvaluator> make_instants(
       const InstantEvaluator::SolverMaker& make) const override {
     return std::make_unique<InstantEvaluator>(problem_, wrench_, make, check_);
+  }
+  std::unique_ptr<WindowEvaluator> make_window(SchemeMaps maps) const override {
+    return std::make_unique<WindowEvaluator>(problem_, wrench_, make_, check_, std::move(maps));
   }
 
  private:

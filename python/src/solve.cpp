@@ -2,6 +2,7 @@
 
 #include <pybind11/stl.h>
 
+#include "maxwrench/path_searches.h"
 #include "maxwrench/strategies.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
@@ -117,6 +118,7 @@ py::dict all_searches() {
   py::dict names = summaries(searches());
   names.attr("update")(summaries(trajectory_searches()));
   names.attr("update")(summaries(facet_searches()));
+  names.attr("update")(summaries(path_searches()));
   names.attr("update")(summaries(transfer_searches()));
   return with_added(names, added_searches());
 }

@@ -9,6 +9,7 @@
 #include "solvers/search/dp_level.h"
 #include "solvers/search/knot_starts.h"
 #include "solvers/search/makers.h"
+#include "solvers/search/path_plan.h"
 
 namespace maxwrench {
 namespace {
@@ -141,15 +142,9 @@ class Dp final : public Search {
                                const std::vector<int>& cells) {
     const auto K = static_cast<int>(cells.size());
     const int before = instants.maps().before;
-    Eigen::MatrixXd table(K - before, instants.problem().redundancy());
-    const auto P = [&](int i) {
-      const int mirrored = K == 1 ? 0 : i < 0 ? 1 : i == K ? K - 2 : i;
-      return grid.at(cells[static_cast<std::size_t>(mirrored)]);
-    };
-    for (int i = before; i < K; ++i) {
-      table.row(i - before) = ((P(i - 1) + 4 * P(i) + P(i + 1)) / 6).transpose();
-    }
-    return stacked(table);
+    Eigen::MatrixXd P(K, instants.problem().redundancy());
+    for (int i = 0; i < K; ++i) P.row(i) = grid.at(cells[static_cast<std::size_t>(i)]).transpose();
+    return stacked(knots_of_spline(P).bottomRows(K - before));
   }
 
   static std::string describe(int done, int next) {

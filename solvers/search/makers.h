@@ -28,6 +28,8 @@ std::unique_ptr<Search> make_facet_nlp();
 
 std::unique_ptr<Search> make_facet_sqp();
 
+std::unique_ptr<Search> make_gradient_projection();
+
 std::unique_ptr<Search> make_grid();
 
 std::unique_ptr<Search> make_isres();
@@ -39,6 +41,8 @@ std::unique_ptr<Search> make_lbfgs();
 std::unique_ptr<Search> make_mlsl();
 
 std::unique_ptr<Search> make_mma();
+
+std::unique_ptr<Search> make_mpc();
 
 std::unique_ptr<Search> make_multistart();
 

@@ -12,6 +12,7 @@
 #include "lib/search/facet_program.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/measure.h"
+#include "maxwrench/path_searches.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
@@ -234,7 +235,9 @@ std::vector<std::string> supported_searches(const Problem& problem, const std::s
     }
   };
   if (problem.motion) add(trajectory_searches());
-  if (problem.motion && problem.motion->transfer) add(transfer_searches());
+  const bool path = problem.motion && !problem.motion->impulse && !transfer;
+  if (path && problem.motion->k > 1) add(path_searches());
+  if (transfer) add(transfer_searches());
   add(searches());
   if (!problem.motion && supported_as_trajectory(problem, measure)) add(trajectory_searches());
   if (supported_between_facets(problem, measure, wrench)) add(facet_searches());

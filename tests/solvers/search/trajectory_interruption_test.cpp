@@ -11,7 +11,7 @@ namespace {
 
 TEST(TrajectoryInterruption, EndsASearchSoonWithWhatItHas) {
   const Problem problem = load_problem("planar/trajectory");
-  for (const char* name : {"slp", "dp", "joint_nlp", "multistart"}) {
+  for (const char* name : {"slp", "dp", "joint_nlp", "gradient_projection", "mpc", "multistart"}) {
     for (const long evaluations : {0, 1, 2, 5, 19, 20, 21, 25, 40, 80, 150}) {
       const bool throughout = name == std::string("slp") && evaluations % 2 == 1;
       const auto objective = make_trajectory_objective(

@@ -1,0 +1,43 @@
+#include "solvers/search/path_plan.h"
+
+#include <fmt/format.h>
+
+#include <stdexcept>
+
+#include "lib/trajectory/task_of.h"
+#include "maxwrench/problem.h"
+#include "solvers/search/knot_starts.h"
+
+namespace maxwrench {
+
+Eigen::MatrixXd knots_of_spline(const Eigen::MatrixXd& P) {
+  const Eigen::Index K = P.rows();
+  Eigen::MatrixXd knots(K, P.cols());
+  for (Eigen::Index i = 0; i < K; ++i) {
+    const Eigen::Index before = K == 1 ? 0 : i == 0 ? 1 : i - 1;
+    const Eigen::Index after = K == 1 ? 0 : i == K - 1 ? K - 2 : i + 1;
+    knots.row(i) = (P.row(before) + 4 * P.row(i) + P.row(after)) / 6;
+  }
+  return knots;
+}
+
+const InstantSource& require_path(Objective& objective, const char* search) {
+  const TrajectoryObjective* trajectories = as_trajectories(objective);
+  const auto* source = dynamic_cast<const InstantSource*>(trajectories);
+  if (source == nullptr) {
+    throw std::invalid_argument(
+        fmt::format("search: got '{}' for postures or an objective of another program, expected a "
+                    "task along a path with two knots or more",
+                    search));
+  }
+  const Problem& problem = task_of(*trajectories);
+  const bool path = problem.motion && !problem.motion->impulse && !problem.motion->transfer;
+  if (!path || problem.motion->k < 2) {
+    throw std::invalid_argument(
+        fmt::format("search: got '{}' for {}, expected a task along a path with two knots or more",
+                    search, problem.name));
+  }
+  return *source;
+}
+
+}  // namespace maxwrench
