@@ -28,14 +28,14 @@ class PureBound final : public Bound {
         set_(set),
         K_(K),
         measure_(measure),
-        most_rank_(std::min<Eigen::Index>(model_->m, model_->coordinates.chain.count())),
+        equation_rows_(equation_rows(*model_)),
         support_(set, by_effort()),
         box_(*model_),
         linear_(*model_),
         program_(extended_B(), set.u_min.head(found_by_program() ? set.actuators() : 0),
                  set.u_max.head(found_by_program() ? set.actuators() : 0), ProgramPoints::kMost) {
     if (!found_by_program()) ellipsoid_.emplace(K);
-    entries_.resize(free_rows() + most_rank_);
+    entries_.setZero(free_rows() + equation_rows_);
   }
 
   double ceiling() const override { return ceiling_; }
@@ -83,7 +83,9 @@ class PureBound final : public Bound {
       value(low, high);
     }
     if (model_->m > 0) linear_.precondition(lower, upper);
-    rank_ = std::min<Eigen::Index>(linear_.rank(), most_rank_);
+    rows_used_ = equation_rows_ == model_->m
+                     ? equation_rows_
+                     : std::min<Eigen::Index>(linear_.rank(), equation_rows_);
     if (ellipsoid_) aim(lower, upper, low, high, proof);
     if (proof.high <= low || entries_.size() == 0) return;
     improve_by_rounds(low, high, proof);
@@ -93,6 +95,15 @@ class PureBound final : public Bound {
   static constexpr int kMostSteps = 120;
   static constexpr double kBelow = 1e-9;
   static constexpr double kClose = 0.1;
+
+  /// The rows of M f in the program. Those after the rank of M have no linear terms; in large boxes
+  /// their terms of second order help. A box with few control points is cheaper to cut than to
+  /// bound with them.
+  static Eigen::Index equation_rows(const LoopModel& model) {
+    constexpr Eigen::Index kFew = 1000;
+    const Eigen::Index linear = model.coordinates.chain.count();
+    return model.size <= kFew ? std::min(model.m, linear) : model.m;
+  }
 
   /// The length of lambda.
   Eigen::Index rows() const { return support_.B().rows(); }
@@ -104,7 +115,7 @@ class PureBound final : public Bound {
 
   Eigen::MatrixXd extended_B() const {
     const Eigen::Index columns = found_by_program() ? support_.B().cols() : 0;
-    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(free_rows() + most_rank_, columns);
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(free_rows() + equation_rows_, columns);
     all.topRows(free_rows()) = support_.B().leftCols(columns).topRows(free_rows());
     return all;
   }
@@ -150,7 +161,8 @@ class PureBound final : public Bound {
       const double least =
           program_.solve(least_t - kBelow * std::abs(least_t), kMostSteps, local_, solved_);
       if (!ellipsoid_) lambda_ = solved_.head(rows());
-      nu_.noalias() = linear_.M().topRows(rank_).transpose() * solved_.segment(free_rows(), rank_);
+      nu_.noalias() =
+          linear_.M().topRows(rows_used_).transpose() * solved_.segment(free_rows(), rows_used_);
       take(value(low, high), proof);
       if (proof.high <= low) break;
       const double now = s_ + values_.at().maxCoeff();
@@ -197,8 +209,8 @@ class PureBound final : public Bound {
     } else {
       entries_.head(rows) = load_;
     }
-    entries_.tail(most_rank_).setZero();
-    entries_.segment(rows, rank_).noalias() = linear_.M().topRows(rank_) * box_.f();
+    entries_.tail(equation_rows_).setZero();
+    entries_.segment(rows, rows_used_).noalias() = linear_.M().topRows(rows_used_) * box_.f();
     for (Eigen::Index j = 0; j < entries_.size(); ++j) program_.row(j)[i] = entries_[j];
     program_.costs()[i] = cost;
   }
@@ -224,13 +236,13 @@ class PureBound final : public Bound {
   const Zonotope& set_;
   const Eigen::MatrixXd K_;
   const PureMeasure measure_;
-  const Eigen::Index most_rank_;
+  const Eigen::Index equation_rows_;
   BoxSupport support_;
   std::optional<EllipsoidSupport> ellipsoid_;
   LoopBox box_;
   LoopLinear linear_;
   MultiplierProgram program_;
-  Eigen::Index rank_ = 0;
+  Eigen::Index rows_used_ = 0;
   PointValues values_;
   ProgramPoints points_;
   double s_ = 0;

@@ -85,6 +85,12 @@ TEST(LoopBound, SupportsOtherMeasures) {
   }
 }
 
+/// Seven joints and twelve equations: five combinations of these have terms of second and higher
+/// order only.
+TEST(LoopBound, HoldsForAPublicArm) {
+  test_pairs(load_problem("gallery/panda/push"), "linf_polytope");
+}
+
 /// A vehicle that braces itself: the second arm's contact is in line with c, so it bears what the
 /// thrusters do not, and strong joints push with far more than those.
 Problem braced() {
