@@ -21,7 +21,7 @@ enum class Kind {
   kEqualLimits,   ///< u_min = u_max for some actuators
   kAlongNormal,   ///< J'c along a facet normal
   kParallelAxis,  ///< a joint that the wrench does not load
-  kDeadThruster,  ///< limits 0 .. 0
+  kThrusterIsDead,  ///< limits 0 .. 0
   kNearBoundary,  ///< tau_d just inside or outside the boundary
   kSymmetric,     ///< equal limits everywhere and small whole numbers: many ties
   kCount
@@ -44,7 +44,7 @@ Zonotope random_actuation(Random& random, Kind kind) {
     u_max[j] = kind == Kind::kSymmetric ? 2 : random.uniform(1, 4);
     if (kind == Kind::kEqualLimits && random.uniform() < 0.3) u_max[j] = u_min[j];
   }
-  if (kind == Kind::kDeadThruster) u_min[0] = u_max[0] = 0;
+  if (kind == Kind::kThrusterIsDead) u_min[0] = u_max[0] = 0;
   return make_zonotope(B, u_min, u_max);
 }
 
