@@ -17,13 +17,13 @@ namespace {
 /// What a random program is made to be awkward in.
 enum class Kind {
   kPlain,
-  kHeavy,         ///< tau_d scaled up: many are infeasible
-  kEqualLimits,   ///< u_min = u_max for some actuators
-  kAlongNormal,   ///< J'c along a facet normal
-  kParallelAxis,  ///< a joint that the wrench does not load
+  kHeavy,           ///< tau_d scaled up: many are infeasible
+  kEqualLimits,     ///< u_min = u_max for some actuators
+  kAlongNormal,     ///< J'c along a facet normal
+  kParallelAxis,    ///< a joint that the wrench does not load
   kThrusterIsDead,  ///< limits 0 .. 0
-  kNearBoundary,  ///< tau_d just inside or outside the boundary
-  kSymmetric,     ///< equal limits everywhere and small whole numbers: many ties
+  kNearBoundary,    ///< tau_d just inside or outside the boundary
+  kSymmetric,       ///< equal limits everywhere and small whole numbers: many ties
   kCount
 };
 
