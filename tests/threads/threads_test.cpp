@@ -163,8 +163,9 @@ TEST_P(ThreadsInSearchOfTrajectories, FindsTheSame) {
     const auto objective =
         make_trajectory_objective(problem, Wrench::kPure, trajectory_solvers().front().make);
     SearchOptions options;
-    // slp's local searches side by side need this; joint_nlp has one local search after the other.
-    options.budget = std::string_view(GetParam().name) == "joint_nlp" ? 100 : 300;
+    // slp's local searches side by side need most.
+    const std::string_view search = GetParam().name;
+    options.budget = search == "slp" ? 300 : search == "joint_nlp" ? 100 : 20;
     options.start = problem.theta_r_default.replicate(knots_of(problem), 1);
     options.threads = 1;
     const SearchResult one = GetParam().make()->maximize(*objective, options);
