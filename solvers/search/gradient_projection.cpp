@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "lib/math/random.h"
-#include "lib/trajectory/task_of.h"
 #include "maxwrench/problem.h"
 #include "solvers/search/makers.h"
 #include "solvers/search/path_plan.h"
@@ -22,32 +21,13 @@ constexpr int kDrawnPostures = 64;  // for the best start
 class GradientProjection final : public Search {
  public:
   SearchResult maximize(Objective& given, const SearchOptions& options) override {
-    check(options, given);
-    const InstantSource& source = require_path(given, kName);
-    auto& objective = dynamic_cast<TrajectoryObjective&>(given);
-    const Problem& problem = task_of(objective);
-    const Box box(objective);
-    SearchRun run(options);
-    Probe probe(objective, options.budget, run, options.starts_wanted > 0 ? &box : nullptr);
-    const Eigen::VectorXd start = box.start(options.start);
-    probe.evaluate(start);
-    std::string stopped = kBudgetSpent;
-    if (objective.dimension() == 0) {
-      stopped = "there is nothing to choose";
-    } else if (probe.left() > 1) {
-      const MotionTask& task = *problem.motion;
-      InstantCount count(probe, task.instants_per_interval * (task.k - 1) + 1, 1);
-      ProjectedFlow flow(source, problem, count);
-      stopped = follow(flow, problem, options.seed, unstacked(start, task.k).row(0), probe);
-    }
-    SearchResult result = make_result(probe.take(), box, options, run);
-    result.stopped = stopped;
-    return result;
+    return search_path(given, options, "gradient_projection", [](const PathContext& path) {
+      ProjectedFlow flow(path.source, path.problem, path.count);
+      return follow(flow, path.problem, path.seed, path.start, path.probe);
+    });
   }
 
  private:
-  static constexpr const char* kName = "gradient_projection";
-
   /// Follows the flows from the given posture, from the maximum near it at t = 0, and from the
   /// maximum near the best of drawn postures. Returns what they gave.
   static std::string follow(ProjectedFlow& flow, const Problem& problem, std::uint64_t seed,

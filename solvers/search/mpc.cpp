@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "lib/math/random.h"
-#include "lib/trajectory/task_of.h"
 #include "maxwrench/problem.h"
 #include "solvers/search/makers.h"
 #include "solvers/search/mpc_window.h"
@@ -24,47 +23,18 @@ constexpr int kMpcSteps = 30;         // linear programs of a horizon, at most
 class Mpc final : public Search {
  public:
   SearchResult maximize(Objective& given, const SearchOptions& options) override {
-    check(options, given);
-    const InstantSource& source = require_path(given, "mpc");
-    auto& objective = dynamic_cast<TrajectoryObjective&>(given);
-    const Problem& problem = task_of(objective);
-    const Box box(objective);
-    SearchRun run(options);
-    Probe probe(objective, options.budget, run, options.starts_wanted > 0 ? &box : nullptr);
-    const Eigen::VectorXd start = box.start(options.start);
-    probe.evaluate(start);
-    std::string stopped = kBudgetSpent;
-    if (objective.dimension() == 0) {
-      stopped = "there is nothing to choose";
-    } else if (probe.left() > 1) {
-      const MotionTask& task = *problem.motion;
-      InstantCount count(probe, task.instants_per_interval * (task.k - 1) + 1, 1);
-      const Horizons horizons{source, problem, options.seed, unstacked(start, task.k).row(0),
-                              count};
-      stopped = recede(horizons, probe);
-    }
-    SearchResult result = make_result(probe.take(), box, options, run);
-    result.stopped = stopped;
-    return result;
+    return search_path(given, options, "mpc", &recede);
   }
 
  private:
-  struct Horizons {
-    const InstantSource& source;
-    const Problem& problem;
-    std::uint64_t seed;
-    Eigen::VectorXd start;
-    InstantCount& count;
-  };
-
   /// One motion for each H = 2, 4, 8, ... that is shorter than the path. Returns what they gave.
-  static std::string recede(const Horizons& horizons, Probe& probe) {
-    const int last = horizons.problem.motion->k - 1;
+  static std::string recede(const PathContext& path) {
+    const int last = path.problem.motion->k - 1;
     std::vector<std::string> values;
     for (int H = std::min(2, last); H < last || values.empty(); H *= 2) {
-      const Eigen::MatrixXd P = motion(horizons, H);
-      if (P.size() == 0 || probe.left() < 1) break;
-      const double value = probe.evaluate(stacked(knots_of_spline(P)));
+      const Eigen::MatrixXd P = motion(path, H);
+      if (P.size() == 0 || path.probe.left() < 1) break;
+      const double value = path.probe.evaluate(stacked(knots_of_spline(P)));
       values.push_back(value > -kInfinity ? fmt::format("{:.6g} with {}", value, H)
                                           : fmt::format("none with {}", H));
     }
@@ -73,12 +43,12 @@ class Mpc final : public Search {
   }
 
   /// The control points (K×r) that were carried out; none if evaluations ran out.
-  static Eigen::MatrixXd motion(const Horizons& horizons, int H) {
-    const int last = horizons.problem.motion->k - 1;
-    Eigen::MatrixXd P = first_plan(horizons, std::min(H, last));
+  static Eigen::MatrixXd motion(const PathContext& path, int H) {
+    const int last = path.problem.motion->k - 1;
+    Eigen::MatrixXd P = first_plan(path, std::min(H, last));
     for (int knot = 1; knot + 1 < last && P.size() > 0; ++knot) {
       const int end = std::min(knot + H, last);
-      MpcWindow window(horizons.source, horizons.problem, knot, end, horizons.count);
+      MpcWindow window(path.source, path.problem, knot, end, path.count);
       // The plan so far, and the same with a stop at its end.
       const Eigen::Index planned = P.rows();
       P.conservativeResize(end + 1, Eigen::NoChange);
@@ -95,13 +65,13 @@ class Mpc final : public Search {
 
   /// The plan of the first H intervals. The task leaves the start open, so it is part of the plan:
   /// the best plan from the best postures that can be held, of the given one and drawn ones.
-  static Eigen::MatrixXd first_plan(const Horizons& horizons, int H) {
-    const Problem& problem = horizons.problem;
-    MpcWindow window(horizons.source, problem, 0, H, horizons.count);
+  static Eigen::MatrixXd first_plan(const PathContext& path, int H) {
+    const Problem& problem = path.problem;
+    MpcWindow window(path.source, problem, 0, H, path.count);
     std::vector<Candidate> held;
     for (int i = 0; i <= kMpcDrawn; ++i) {
-      Random random(horizons.seed, RandomUse::kSample, static_cast<std::uint64_t>(i));
-      Eigen::VectorXd theta_r = horizons.start;
+      Random random(path.seed, RandomUse::kSample, static_cast<std::uint64_t>(i));
+      Eigen::VectorXd theta_r = path.start;
       for (Eigen::Index j = 0; i > 0 && j < theta_r.size(); ++j) {
         theta_r[j] = random.uniform(problem.theta_r_min[j], problem.theta_r_max[j]);
       }

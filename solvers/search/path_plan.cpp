@@ -40,4 +40,28 @@ const InstantSource& require_path(Objective& objective, const char* search) {
   return *source;
 }
 
+SearchResult search_path(Objective& objective, const SearchOptions& options, const char* search,
+                         const std::function<std::string(const PathContext&)>& plan) {
+  check(options, objective);
+  const InstantSource& source = require_path(objective, search);
+  const Problem& problem = task_of(dynamic_cast<TrajectoryObjective&>(objective));
+  const Box box(objective);
+  SearchRun run(options);
+  Probe probe(objective, options.budget, run, options.starts_wanted > 0 ? &box : nullptr);
+  const Eigen::VectorXd start = box.start(options.start);
+  probe.evaluate(start);
+  std::string stopped = kBudgetSpent;
+  if (objective.dimension() == 0) {
+    stopped = "there is nothing to choose";
+  } else if (probe.left() > 1) {
+    const MotionTask& task = *problem.motion;
+    InstantCount count(probe, task.instants_per_interval * (task.k - 1) + 1, 1);
+    stopped = plan(
+        {source, problem, options.seed, unstacked(start, task.k).row(0).transpose(), count, probe});
+  }
+  SearchResult result = make_result(probe.take(), box, options, run);
+  result.stopped = stopped;
+  return result;
+}
+
 }  // namespace maxwrench

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <functional>
+#include <string>
+
 #include "lib/trajectory/instant_evaluator.h"
 #include "maxwrench/trajectory.h"
 #include "solvers/search/probe.h"
@@ -37,5 +40,20 @@ class InstantCount {
   long per_evaluation_, kept_;
   long over_ = 0;  ///< instants that no evaluation has counted yet
 };
+
+/// What a search for paths works with, after it has evaluated its start.
+struct PathContext {
+  const InstantSource& source;
+  const Problem& problem;
+  std::uint64_t seed;
+  Eigen::VectorXd start;  ///< the first posture of the start
+  InstantCount& count;
+  Probe& probe;
+};
+
+/// The frame of these searches: rejects what is no path, evaluates the start and, if anything can
+/// be chosen and is left to spend, lets `plan` evaluate motions and say why it stopped.
+SearchResult search_path(Objective& objective, const SearchOptions& options, const char* search,
+                         const std::function<std::string(const PathContext&)>& plan);
 
 }  // namespace maxwrench

@@ -146,7 +146,7 @@ export class Stage {
     const { box, centre, from } = this.subject;
     const slope = kFill * Math.tan((this.camera.fov * Math.PI) / 360);
     const wide = slope * this.camera.aspect;
-    const high = this.stacked ? slope * (1 - (2 * kButtons) / this.boxOf(0).height) : slope; // a wide picture has room beside the buttons
+    const high = this.stacked ? slope * Math.max(0.4, 1 - (2 * kButtons) / this.boxOf(0).height) : slope; // a wide picture has room beside the buttons
     const right = new Vector3().crossVectors(this.camera.up, from).normalize();
     const up = new Vector3().crossVectors(from, right);
     let distance = 0;
