@@ -12,7 +12,6 @@
 
 #include "lib/math/require.h"
 #include "maxwrench/batch.h"
-#include "maxwrench/path_searches.h"
 #include "maxwrench/robot.h"
 #include "maxwrench/strategies.h"
 

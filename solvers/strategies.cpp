@@ -5,7 +5,6 @@
 #include <string_view>
 #include <vector>
 
-#include "maxwrench/path_searches.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/solve.h"
 #include "solvers/integrator/makers.h"

@@ -9,7 +9,6 @@
 #include <string_view>
 #include <vector>
 
-#include "maxwrench/path_searches.h"
 #include "maxwrench/strategies.h"
 #include "solvers/added_strategies.h"
 #include "solvers/search/composition.h"

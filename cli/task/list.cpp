@@ -5,7 +5,6 @@
 #include "cli/cli.h"
 #include "cli/output.h"
 #include "maxwrench/load.h"
-#include "maxwrench/path_searches.h"
 #include "maxwrench/strategies.h"
 
 namespace maxwrench {

@@ -46,6 +46,8 @@ struct ScenarioLimits {
   /// The robot's zonotope with other limits of u. B is the same, and so are the normals N if there
   /// are facets.
   Zonotope actuation;
+  /// Whether a lost joint has a brake or friction: its effort is within limits, but no command.
+  bool resists = false;
 };
 
 /// One wrench of a task.

@@ -119,6 +119,10 @@ std::span<const SearchEntry> facet_searches();
 ///
 /// They reject all other tasks with std::invalid_argument. It is empty in a build without SUNDIALS.
 std::span<const SearchEntry> transfer_searches();
+/// Returns the table of searches for tasks along a path, the methods by which others plan such
+/// motions: they choose what to do at an instant from what they see of the next ones. They reject
+/// all other tasks with std::invalid_argument.
+std::span<const SearchEntry> path_searches();
 /// Returns the table of integrators.
 std::span<const IntegratorEntry> integrators();
 /// Returns the names of the integrators that the virtual tank supports. Its load cell is stiff.

@@ -41,7 +41,7 @@ Eigen::Vector3d ScenarioSlopes::add(const PostureState& state, const Capability&
   const ScenarioList& list = problem_.scenarios;
   Eigen::Vector3d turn = Eigen::Vector3d::Zero();
   for_each_case(list, capability.decides, [&](const LoadCase& load) {
-    if (load.current.isZero()) return;
+    if (load.current.isZero(0)) return;
     water_->set(state.base.R, state.q);
     turn += water_->add_slopes(load.current, capability.lambda, q_gradient);
   });

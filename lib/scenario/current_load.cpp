@@ -16,7 +16,7 @@ Robot floating_without_weight(Robot robot) {
 
 bool has_current(const LoadGroup& cases) {
   return std::any_of(cases.begin(), cases.end(),
-                     [](const LoadCase& load) { return !load.current.isZero(); });
+                     [](const LoadCase& load) { return !load.current.isZero(0); });
 }
 
 bool has_current(const ScenarioList& list) {

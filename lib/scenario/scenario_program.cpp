@@ -42,7 +42,7 @@ Vector6d ScenarioPosture::ball_axis(Eigen::Index i) const {
 
 void ScenarioPosture::add_load(const LoadCase& load, Eigen::VectorXd& tau) {
   add_static_loads(problem_.robot, *posture_, load.loads, 1, tau);
-  if (load.current.isZero()) return;
+  if (load.current.isZero(0)) return;
   water_->evaluate(load.current, added_);
   tau += added_;
 }

@@ -8,6 +8,7 @@
 #include <optional>
 #include <string>
 
+#include "lib/math/raise_to.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/trajectory.h"
 
@@ -18,10 +19,10 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// Raises the largest errors of the summary to those of the sample.
 void reach(const TankSample& sample, TankSummary& summary) {
-  summary.theta_r_error = std::max(summary.theta_r_error, sample.theta_r_error);
-  summary.configuration_error = std::max(summary.configuration_error, sample.configuration_error);
-  summary.position_error = std::max(summary.position_error, sample.position_error);
-  summary.deflection_error = std::max(summary.deflection_error, sample.deflection_error);
+  raise_to(summary.theta_r_error, sample.theta_r_error);
+  raise_to(summary.configuration_error, sample.configuration_error);
+  raise_to(summary.position_error, sample.position_error);
+  raise_to(summary.deflection_error, sample.deflection_error);
 }
 
 void forget(TankSummary& summary, bool lost) {
@@ -81,7 +82,7 @@ std::optional<AfterDeaths> read_after(const TankOptions& options, double start, 
     after.low = count == 0 ? sample.reading : std::min(after.low, sample.reading);
     after.high = count == 0 ? sample.reading : std::max(after.high, sample.reading);
     after.last = sample.reading;
-    after.configuration_error = std::max(after.configuration_error, sample.configuration_error);
+    raise_to(after.configuration_error, sample.configuration_error);
     ++count;
     if (in_transient(options, sample.t)) continue;
     after.mean += sample.reading;
@@ -95,17 +96,17 @@ std::optional<AfterDeaths> read_after(const TankOptions& options, double start, 
 /// Adds one sample of a task in time.
 void add_sample(const TankSample& sample, TankSummary& summary) {
   MotionSummary& motion = *summary.motion;
-  summary.violation = std::max(summary.violation, sample.violation);
-  motion.speed = std::max(motion.speed, sample.speed);
-  motion.violations += sample.violation > kHeldViolation || sample.speed > kHeldViolation;
+  raise_to(summary.violation, sample.violation);
+  raise_to(motion.speed, sample.speed);
+  motion.violations += !(sample.violation <= kHeldViolation && sample.speed <= kHeldViolation);
   if (sample.reading < summary.low) motion.t_low = sample.t;
   if (sample.reading > summary.high) motion.t_high = sample.t;
   summary.low = std::min(summary.low, sample.reading);
   summary.high = std::max(summary.high, sample.reading);
   summary.mean += sample.reading;
-  motion.deviation = std::max(motion.deviation, std::abs(sample.reading - sample.planned));
-  motion.off_axis_force = std::max(motion.off_axis_force, sample.off_axis_force);
-  motion.off_axis_torque = std::max(motion.off_axis_torque, sample.off_axis_torque);
+  raise_to(motion.deviation, std::abs(sample.reading - sample.planned));
+  raise_to(motion.off_axis_force, sample.off_axis_force);
+  raise_to(motion.off_axis_torque, sample.off_axis_torque);
   reach(sample, summary);
   summary.shortfall += sample.shortfall;
   summary.saturated += sample.saturated;
@@ -175,7 +176,7 @@ TankSummary summarise(const Problem& problem, const TargetWrench& target,
   summary.across.setZero();
   int count = 0;
   for (const TankSample& sample : run.samples) {
-    summary.violation = std::max(summary.violation, sample.violation);
+    raise_to(summary.violation, sample.violation);
     const double into = sample.t - options.ramp;
     if (into < -options.period / 2 || into > options.hold + options.period / 2) continue;
     if (in_transient(options, sample.t)) continue;

@@ -36,6 +36,12 @@ class MotionEvaluator {
   /// Of a transfer, x is that of the last `evaluate`.
   const SchemeMaps& maps() const { return maps_; }
 
+  /// Moves instant i of the scheme to a time and point of the path.
+  void set_instant(std::size_t i, double t, const PathPoint& x) {
+    maps_.t[i] = t;
+    maps_.x[i] = x;
+  }
+
   /// Q K×r. Fills t, the poses, q, v, v_dot, J and tau_d of the instants. From instant `lost` on,
   /// the values are NaN.
   void evaluate(const Eigen::MatrixXd& Q, std::vector<Instant>& instants);

@@ -2,15 +2,11 @@
 #include <cmath>
 
 #include "lib/math/farkas.h"
+#include "lib/math/raise_to.h"
 #include "maxwrench/trajectory_program.h"
 
 namespace maxwrench {
 namespace {
-
-/// Raises `worst` to `value`; NaN counts as infinity.
-void raise_to(double& worst, double value) {
-  if (!(value <= worst)) worst = std::isnan(value) ? kInfinity : value;
-}
 
 /// A trajectory program and its multipliers, for both kinds of proof.
 class Multipliers {

@@ -13,7 +13,7 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kNoMultiplierOfWindow = 1e-7;  // smaller ones are rounding of an ipm
+constexpr double kNoMultiplierOfWindow = 1e-7;  // smaller ones are rounding of an ipm, as prices
 
 SchemeMaps empty_maps(Eigen::Index instants, Eigen::Index columns) {
   SchemeMaps maps;
@@ -87,12 +87,24 @@ WindowEvaluator::WindowEvaluator(const Problem& problem, Wrench wrench,
   if (!task_.has_factor()) turned_from_start_.x.front() = task_.path.at(0);
 }
 
+void WindowEvaluator::set_time(double t) {
+  const PathPoint x = task_.path.at(t);
+  motion_.set_instant(0, t, x);
+  turned_from_start_.t.front() = t;
+  if (task_.has_factor()) turned_from_start_.x.front() = x;
+}
+
 double WindowEvaluator::evaluate(const Eigen::MatrixXd& Q) {
   motion_.evaluate(Q, instants_);
   if (!motion_violation(problem_, motion_, instants_).empty()) return -kInfinity;
   set_instants(problem_, task_, scenarios_, turned_from_start_, instants_, program_);
+  program_.rho = kInfinity;
   solver_->solve(program_, solution_);
-  return solution_.status == Status::kOptimal ? solution_.value : -kInfinity;
+  if (solution_.status != Status::kOptimal) {
+    program_.rho = kElasticWeight;
+    solver_->solve(program_, solution_);
+  }
+  return solution_.status == Status::kOptimal ? solution_.value - solution_.price : -kInfinity;
 }
 
 bool WindowEvaluator::is_knot(int instant) const {
@@ -141,7 +153,8 @@ void WindowEvaluator::gradient(Eigen::MatrixXd& gradient) {
 }
 
 bool WindowEvaluator::coupled() const {
-  return (solution_.mu.array().abs() > kNoMultiplierOfWindow).any() ||
+  return solution_.price > kNoMultiplierOfWindow ||
+         (solution_.mu.array().abs() > kNoMultiplierOfWindow).any() ||
          (solution_.kappa.array().abs() > kNoMultiplierOfWindow).any();
 }
 

@@ -13,7 +13,7 @@ namespace maxwrench {
 
 /// The maps of one instant of a path at which theta_r rests: theta_r = Q, theta_r_dot =
 /// theta_r_ddot = 0. The end effector moves as the path does.
-SchemeMaps make_resting_instant(const MotionTask& task, double t);
+SchemeMaps make_resting_instant(const MotionTask& task, double t = 0);
 
 /// The maps of the uniform cubic B-spline with control points P_0 .. P_(K - 1), a duration dt
 /// apart, from knot `first` to knot `last` of the path, 0 <= first < last < K. It ends at rest at
@@ -39,8 +39,11 @@ class WindowEvaluator {
   const Problem& problem() const { return problem_; }
   const SchemeMaps& maps() const { return motion_.maps(); }
 
-  /// The value at a table of all columns (K×r); -infinity if there is none. theta_r and its rates
-  /// are not compared with their limits, those of dependent joints are.
+  /// Moves the only instant, of `make_resting_instant`, to a time of the path.
+  void set_time(double t);
+  /// The value at a table of all columns (K×r). If no efforts balance the motion, it is that of the
+  /// elastic program, as of `TrajectoryEvaluator::evaluate_elastic`; -infinity if there is none, or
+  /// a dependent joint exceeds a limit. Limits of theta_r and its rates are left to the caller.
   double evaluate(const Eigen::MatrixXd& Q);
   /// After `evaluate`: whether a knot in the stretch, or its only instant, collides.
   bool collides();
@@ -54,7 +57,7 @@ class WindowEvaluator {
   const Eigen::VectorXd& v(int instant) const {
     return instants_[static_cast<std::size_t>(instant)].v;
   }
-  /// After an `evaluate` with a value: whether effort rates or lags determine it.
+  /// After an `evaluate` with a value: whether effort rates, lags or slack determine it.
   bool coupled() const;
   /// After an `evaluate` with a value: the elastic program, linearised in steps y of the columns
   /// after those `before`, stacked row by row. The caller sets the bounds and rows of y.

@@ -138,6 +138,7 @@ std::string lose(const LossSpec& loss, const Robot& robot, int actuator, Actuato
   const double left = !joint ? 0 : loss.joints_lock ? loss.brake : loss.friction;
   limits.u_min[actuator] = 0 - left;  // not -0
   limits.u_max[actuator] = left;
+  limits.resists = limits.resists || left > 0;
   const char* how = !joint ? "dead" : loss.joints_lock ? "locked" : "limp";
   return fmt::format("{} {}", name_of_actuator(robot, actuator), how);
 }
@@ -159,7 +160,7 @@ bool has_two_ends(const UncertaintySpec& uncertainty, const Robot& robot, int ac
 /// Adds the limits with these actuators lost.
 void add_limits(const LossSpec& loss, const UncertaintySpec& uncertainty, const Robot& robot,
                 const Lost& lost, std::vector<ActuatorLimits>& result) {
-  ActuatorLimits limits{"", robot.actuation.u_min, robot.actuation.u_max};
+  ActuatorLimits limits{.name = "", .u_min = robot.actuation.u_min, .u_max = robot.actuation.u_max};
   std::vector<std::string> names;
   std::vector<int> two_ends;
   const auto weaken = [&](int i, ActuatorLimits& weaker) {
@@ -221,7 +222,8 @@ std::vector<ScenarioLimits> limits_of_each_loss(LossSpec loss, const Robot& robo
   loss.any = 1;
   std::vector<ScenarioLimits> limits;
   for (const ActuatorLimits& each : actuator_limits(loss, {}, robot)) {
-    limits.push_back({each.name, with_limits(robot.actuation, each.u_min, each.u_max)});
+    limits.push_back(
+        {each.name, with_limits(robot.actuation, each.u_min, each.u_max), each.resists});
   }
   return limits;
 }

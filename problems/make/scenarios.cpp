@@ -258,7 +258,8 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
         fmt::format("none beside {}: lists of scenarios have one contact", key_of_lists(task).key));
   }
   for (const ActuatorLimits& each : limits) {
-    list.limits.push_back({each.name, with_limits(actuation, each.u_min, each.u_max)});
+    list.limits.push_back(
+        {each.name, with_limits(actuation, each.u_min, each.u_max), each.resists});
   }
 }
 

@@ -2,7 +2,6 @@
 
 #include <pybind11/stl.h>
 
-#include "maxwrench/path_searches.h"
 #include "maxwrench/strategies.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"

@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "lib/math/random.h"
 #include "maxwrench/problem.h"
 #include "solvers/search/makers.h"
 #include "solvers/search/mpc_window.h"
@@ -66,15 +65,10 @@ class Mpc final : public Search {
   /// The plan of the first H intervals. The task leaves the start open, so it is part of the plan:
   /// the best plan from the best postures that can be held, of the given one and drawn ones.
   static Eigen::MatrixXd first_plan(const PathContext& path, int H) {
-    const Problem& problem = path.problem;
-    MpcWindow window(path.source, problem, 0, H, path.count);
+    MpcWindow window(path.source, path.problem, 0, H, path.count);
     std::vector<Candidate> held;
     for (int i = 0; i <= kMpcDrawn; ++i) {
-      Random random(path.seed, RandomUse::kSample, static_cast<std::uint64_t>(i));
-      Eigen::VectorXd theta_r = path.start;
-      for (Eigen::Index j = 0; i > 0 && j < theta_r.size(); ++j) {
-        theta_r[j] = random.uniform(problem.theta_r_min[j], problem.theta_r_max[j]);
-      }
+      const Eigen::VectorXd theta_r = i == 0 ? path.start : drawn_posture(path, i);
       window.set(theta_r.transpose().replicate(H + 1, 1));
       held.push_back({theta_r, window.value()});
     }

@@ -9,12 +9,14 @@
 namespace maxwrench {
 namespace {
 
-// As of `SlpRun`.
+// Like those of `SlpRun`, which goes on longer: a horizon is planned again at the next knot.
 constexpr double kMpcRadius = 0.1, kMpcSmallestRadius = 1e-6;  // rad or m
 constexpr double kMpcAccept = 0.05, kMpcShrink = 0.25, kMpcGrow = 0.7;
 constexpr double kMpcConverged = 1e-7;  // predicted, relative to 1 + |f|
 constexpr double kMpcTolerance = 1e-6;  // of a linear program, whose answer is a step
 constexpr double kMpcNearing = 2;       // m per radius: how much nearer bodies may come in a step
+constexpr double kMpcSpare = 1e-9;      // m, added to the margin when bodies are moved apart
+constexpr int kMpcApartRounds = 5;
 
 }  // namespace
 
@@ -70,11 +72,8 @@ void MpcWindow::optimise(int steps) {
     if (!(predicted > kMpcConverged * (1 + std::abs(value_)))) return;
     Eigen::MatrixXd trial = P_;
     trial.bottomRows(free) += unstacked(solution_.y, free);
-    for (Eigen::Index row = given(); row < trial.rows(); ++row) {
-      trial.row(row) = trial.row(row)
-                           .cwiseMax(problem_.theta_r_min.transpose())
-                           .cwiseMin(problem_.theta_r_max.transpose());
-    }
+    keep_limits(trial);
+    move_apart(trial);
     const double size = solution_.y.lpNorm<Eigen::Infinity>();
     const double value = evaluate(trial), risen = value - value_;
     if (!(risen >= kMpcShrink * predicted)) {
@@ -87,6 +86,32 @@ void MpcWindow::optimise(int steps) {
     P_ = trial;
     value_ = value;
     program = &window_->linearize();
+  }
+}
+
+void MpcWindow::keep_limits(Eigen::MatrixXd& P) const {
+  for (Eigen::Index i = given(); i < P.rows(); ++i) {
+    P.row(i) = P.row(i)
+                   .cwiseMax(problem_.theta_r_min.transpose())
+                   .cwiseMin(problem_.theta_r_max.transpose());
+  }
+}
+
+/// Moves bodies that collide at knots apart, by Newton's method along the gradients of their
+/// clearance by the control points that are not given.
+void MpcWindow::move_apart(Eigen::MatrixXd& P) {
+  const Eigen::Index free = P.rows() - given();
+  for (int round = 0; round < kMpcApartRounds; ++round) {
+    const std::vector<NearPair>& near = window_->near_pairs(P, 0);
+    if (near.empty()) return;
+    for (const NearPair& pair : near) {
+      const Eigen::RowVectorXd weights = window_->maps().P.row(pair.knot).tail(free);
+      const double squared = weights.squaredNorm() * pair.gradient.squaredNorm();
+      if (!(squared > 0)) continue;
+      P.bottomRows(free) +=
+          (kMpcSpare - pair.clearance) / squared * weights.transpose() * pair.gradient.transpose();
+    }
+    keep_limits(P);
   }
 }
 

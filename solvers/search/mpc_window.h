@@ -41,6 +41,8 @@ class MpcWindow {
  private:
   bool pay();
   double evaluate(const Eigen::MatrixXd& P);
+  void keep_limits(Eigen::MatrixXd& P) const;
+  void move_apart(Eigen::MatrixXd& P);
   bool solve(double radius, bool coupled, TrajectoryProgram& program);
   void set_bounds(TrajectoryProgram& program, double radius);
   void set_rows(TrajectoryProgram& program, double radius);

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "lib/math/random.h"
 #include "lib/trajectory/task_of.h"
 #include "maxwrench/problem.h"
 #include "solvers/search/knot_starts.h"
@@ -26,8 +27,8 @@ const InstantSource& require_path(Objective& objective, const char* search) {
   const auto* source = dynamic_cast<const InstantSource*>(trajectories);
   if (source == nullptr) {
     throw std::invalid_argument(
-        fmt::format("search: got '{}' for postures or an objective of another program, expected a "
-                    "task along a path with two knots or more",
+        fmt::format("search: got '{}' for a static task or an objective of another program, "
+                    "expected a task along a path with two knots or more",
                     search));
   }
   const Problem& problem = task_of(*trajectories);
@@ -38,6 +39,15 @@ const InstantSource& require_path(Objective& objective, const char* search) {
                     search, problem.name));
   }
   return *source;
+}
+
+Eigen::VectorXd drawn_posture(const PathContext& path, int i) {
+  Random random(path.seed, RandomUse::kSample, static_cast<std::uint64_t>(i));
+  Eigen::VectorXd theta_r(path.start.size());
+  for (Eigen::Index j = 0; j < theta_r.size(); ++j) {
+    theta_r[j] = random.uniform(path.problem.theta_r_min[j], path.problem.theta_r_max[j]);
+  }
+  return theta_r;
 }
 
 SearchResult search_path(Objective& objective, const SearchOptions& options, const char* search,

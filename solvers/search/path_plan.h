@@ -51,6 +51,9 @@ struct PathContext {
   Probe& probe;
 };
 
+/// Posture i of those that a search draws within the limits of theta_r, by its seed.
+Eigen::VectorXd drawn_posture(const PathContext& path, int i);
+
 /// The frame of these searches: rejects what is no path, evaluates the start and, if anything can
 /// be chosen and is left to spend, lets `plan` evaluate motions and say why it stopped.
 SearchResult search_path(Objective& objective, const SearchOptions& options, const char* search,

@@ -17,29 +17,25 @@ constexpr double kEnough = 1e-4;     // Armijo: the share of the rise that the g
 
 ProjectedFlow::ProjectedFlow(const InstantSource& source, const Problem& problem,
                              InstantCount& count)
-    : problem_(problem), count_(count), per_interval_(problem.motion->instants_per_interval) {
-  const MotionTask& task = *problem.motion;
-  const int intervals = per_interval_ * (task.k - 1);
-  step_time_ = task.T / intervals;
-  for (int n = 0; n <= intervals; ++n) {
-    instants_.push_back(
-        source.make_window(make_resting_instant(task, n == intervals ? task.T : n * step_time_)));
-  }
-}
+    : problem_(problem),
+      count_(count),
+      at_(source.make_window(make_resting_instant(*problem.motion))),
+      intervals_(problem.motion->instants_per_interval * (problem.motion->k - 1)),
+      step_time_(problem.motion->T / intervals_) {}
 
 double ProjectedFlow::value(int instant, const Eigen::VectorXd& theta_r) {
   stopped_ = stopped_ || !count_.has(1);
   if (stopped_) return -kInfinity;
   count_.spend(1);
-  WindowEvaluator& at = *instants_[static_cast<std::size_t>(instant)];
-  const double value = at.evaluate(theta_r.transpose());
-  return value > -kInfinity && at.collides() ? -kInfinity : value;
+  at_->set_time(instant == intervals_ ? problem_.motion->T : instant * step_time_);
+  const double value = at_->evaluate(theta_r.transpose());
+  return value > -kInfinity && at_->collides() ? -kInfinity : value;
 }
 
 Eigen::VectorXd ProjectedFlow::climb(Eigen::VectorXd theta_r) {
   const Eigen::VectorXd reach = Eigen::VectorXd::Constant(theta_r.size(), kClimbReach);
-  for (int i = 0; i < kClimbSteps && step(0, reach, false, theta_r); ++i) {
-  }
+  std::optional<double> f = value(0, theta_r);
+  for (int i = 0; i < kClimbSteps && f; ++i) f = step(0, *f, reach, false, theta_r);
   return theta_r;
 }
 
@@ -48,42 +44,46 @@ Eigen::MatrixXd ProjectedFlow::flow(Eigen::VectorXd theta_r) {
   Eigen::VectorXd reach(theta_r.size());
   for (Eigen::Index j = 0; j < reach.size(); ++j) {
     const auto joint = static_cast<std::size_t>(problem_.redundant[static_cast<std::size_t>(j)]);
-    reach[j] = problem_.robot.joints[joint].velocity_max * step_time_;
+    // A joint may be without a limit of speed.
+    reach[j] = std::min(problem_.robot.joints[joint].velocity_max * step_time_,
+                        problem_.theta_r_max[j] - problem_.theta_r_min[j]);
   }
-  for (int n = 0; n < instants(); ++n) {
-    if (n % per_interval_ == 0) P.row(n / per_interval_) = theta_r.transpose();
-    if (n + 1 < instants()) step(n, reach, true, theta_r);
+  const int per_interval = problem_.motion->instants_per_interval;
+  for (int n = 0; n <= intervals_; ++n) {
+    if (n % per_interval == 0) P.row(n / per_interval) = theta_r.transpose();
+    if (n < intervals_) step(n, value(n, theta_r), reach, true, theta_r);
   }
   return P;
 }
 
 /// Moves theta_r by as much as raises f at this instant and each `reach` permits; `in_time`: also
-/// the speeds of dependent joints. Returns whether it moved.
-bool ProjectedFlow::step(int instant, const Eigen::VectorXd& reach, bool in_time,
-                         Eigen::VectorXd& theta_r) {
-  const double before = value(instant, theta_r);
-  if (before == -kInfinity) return false;
-  WindowEvaluator& at = *instants_[static_cast<std::size_t>(instant)];
-  at.gradient(gradient_);
+/// the speeds of dependent joints. `f` is the value there, which was evaluated last. Returns the
+/// value after the step, or none if theta_r does not move.
+std::optional<double> ProjectedFlow::step(int instant, double f, const Eigen::VectorXd& reach,
+                                          bool in_time, Eigen::VectorXd& theta_r) {
+  if (f == -kInfinity) return {};
+  at_->gradient(gradient_);
   const Eigen::VectorXd g = gradient_.row(0).transpose();
-  const Eigen::MatrixXd A_r = at.A_r(0);
-  const Eigen::VectorXd v = at.v(0);
+  const Eigen::MatrixXd A_r = at_->A_r(0);
+  const Eigen::VectorXd v = at_->v(0);
   const Eigen::VectorXd way = direction(A_r.transpose() * A_r, g, theta_r);
   double alpha = kInfinity;  // times a duration
   for (Eigen::Index j = 0; j < way.size(); ++j) {
     if (way[j] != 0) alpha = std::min(alpha, reach[j] / std::abs(way[j]));
   }
   if (in_time) alpha = std::min(alpha, step_time_ * share_of_speeds(A_r * way, v));
-  if (!std::isfinite(alpha)) return false;
+  if (!std::isfinite(alpha)) return {};
   for (int halving = 0; halving <= kHalvings && !stopped_; ++halving, alpha /= 2) {
     const Eigen::VectorXd trial =
         (theta_r + alpha * way).cwiseMax(problem_.theta_r_min).cwiseMin(problem_.theta_r_max);
     const double promised = g.dot(trial - theta_r);
-    if (!(promised > 0) || !(value(instant, trial) > before + kEnough * promised)) continue;
+    if (!(promised > 0)) continue;
+    const double risen = value(instant, trial);
+    if (!(risen > f + kEnough * promised)) continue;
     theta_r = trial;
-    return true;
+    return risen;
   }
-  return false;
+  return {};
 }
 
 /// M_FF^-1 g_F, where coordinates at a limit that would leave it are fixed one after the other.

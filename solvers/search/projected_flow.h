@@ -1,7 +1,7 @@
 #pragma once
 
 #include <memory>
-#include <vector>
+#include <optional>
 
 #include "lib/trajectory/window_evaluator.h"
 #include "solvers/search/path_plan.h"
@@ -14,36 +14,37 @@ namespace maxwrench {
 ///
 ///     theta_r_dot = alpha M^-1 d f/d theta_r,   M = A_r'A_r,
 ///
-/// on the coordinates that do not leave a limit. alpha is the largest number, after halvings, that
-/// no joint's speed limit forbids and with which the step of an instant raises f at that instant.
+/// on the coordinates that do not leave a limit. alpha is as large as the speed limits of all
+/// joints permit, then halved until the step of an instant raises f at that instant.
 class ProjectedFlow {
  public:
   /// All arguments must outlive this object. The task is a path.
   ProjectedFlow(const InstantSource& source, const Problem& problem, InstantCount& count);
 
-  int instants() const { return static_cast<int>(instants_.size()); }
   /// Whether evaluations ran out; then the last `climb` or `flow` ended early.
   bool stopped() const { return stopped_; }
 
-  /// f at an instant; -infinity where there is no value, or the posture collides.
+  /// f at an instant; where no efforts balance the motion, as `WindowEvaluator::evaluate`;
+  /// -infinity where there is no value, or the posture collides.
   double value(int instant, const Eigen::VectorXd& theta_r);
   /// Climbs at t = 0, where no time passes, until nothing rises.
   Eigen::VectorXd climb(Eigen::VectorXd theta_r);
-  /// The postures at the knots (K×r) of the flow from a posture at t = 0. Where the instant has no
-  /// value, theta_r rests.
+  /// The postures at the knots (K×r) of the flow from a posture at t = 0, which are control points
+  /// of a motion that does not pass through them. Where an instant has no value, theta_r rests.
   Eigen::MatrixXd flow(Eigen::VectorXd theta_r);
 
  private:
-  bool step(int instant, const Eigen::VectorXd& reach, bool in_time, Eigen::VectorXd& theta_r);
+  std::optional<double> step(int instant, double f, const Eigen::VectorXd& reach, bool in_time,
+                             Eigen::VectorXd& theta_r);
   Eigen::VectorXd direction(Eigen::MatrixXd M, Eigen::VectorXd g,
                             const Eigen::VectorXd& theta_r) const;
   double share_of_speeds(const Eigen::VectorXd& added, const Eigen::VectorXd& v) const;
 
   const Problem& problem_;
   InstantCount& count_;
-  std::vector<std::unique_ptr<WindowEvaluator>> instants_;
-  int per_interval_;
-  double step_time_;  ///< between instants [s]
+  std::unique_ptr<WindowEvaluator> at_;  ///< one instant, which rests
+  int intervals_;                        ///< between instants
+  double step_time_;                     ///< between instants [s]
   bool stopped_ = false;
   Eigen::MatrixXd gradient_;
 };

@@ -70,8 +70,8 @@ double reading_of(const TankSummary& summary) {
 
 std::vector<std::string> supported_integrators(const Problem& problem, const std::string& measure) {
   const bool factor = problem.motion && problem.motion->has_factor();
-  const bool supports =
-      !problem.contact && !factor && measure == Case().measure && !unmodelled(problem.robot);
+  const bool one_wrench = !problem.contact && !factor && problem.scenarios.empty();
+  const bool supports = one_wrench && measure == Case().measure && !unmodelled(problem.robot);
   return supports ? stiff_integrators() : std::vector<std::string>();
 }
 

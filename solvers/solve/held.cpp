@@ -226,6 +226,7 @@ class HeldSearch {
       held.stopped = "interrupted";
       held.answer.stopped = held.stopped;
       held.conclude(Status::kBudgetExhausted, held.stopped);
+      if (held.answer.task) held.answer.conclude(Status::kBudgetExhausted, held.stopped);
     }
     held.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     return held;

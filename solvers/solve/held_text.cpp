@@ -20,9 +20,11 @@ std::string summary(const HeldTrajectory& held) {
     text += fmt::format("first      reading {:.5f} of the best trajectory that was planned\n",
                         held.first);
   }
-  text += fmt::format("{}{}{}: {} experiments in {:.3g} s{}{}\n", to_string(held.status),
+  const bool why = !held.stopped.empty() && held.stopped != held.reason.c_str();
+  text += fmt::format("{}{}{}: {} experiment{} in {:.3g} s{}{}\n", to_string(held.status),
                       held.reason.empty() ? "" : ", ", held.reason.c_str(), held.simulations,
-                      held.seconds, held.stopped.empty() ? "" : "; ", held.stopped);
+                      held.simulations == 1 ? "" : "s", held.seconds, why ? "; " : "",
+                      why ? held.stopped : "");
   return text;
 }
 

@@ -12,7 +12,6 @@
 #include "lib/search/facet_program.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/measure.h"
-#include "maxwrench/path_searches.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"

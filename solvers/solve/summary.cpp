@@ -90,7 +90,7 @@ std::string trajectory_summary(const Answer& answer) {
   if (task.impulse && trajectory.t_h > 0) add(text, ", peak at knot {}", trajectory.t_h);
   add(text, "\n{}{}{}\n", to_string(answer.status), answer.reason.empty() ? "" : ": ",
       answer.reason.c_str());
-  if (answer.status == Status::kBestFound) add(text, "stopped   {}\n", answer.stopped);
+  if (!answer.stopped.empty()) add(text, "stopped   {}\n", answer.stopped);
   if (answer.has_value()) {
     add_value(answer, text);
     for (const std::string& limit : binding_limits(answer)) add(text, "{}\n", limit);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <utility>
 
 #include "maxwrench/problem.h"
@@ -21,24 +20,6 @@ namespace {
                                    const std::string& expected) {
   throw std::invalid_argument(problem.name + ": got " + got + ", expected " + expected +
                               " for the virtual tank");
-}
-
-/// Whether an actuator of the limits has a brake or friction. Those of the first limits are all
-/// driven. Others are lost with limits of 0, or as weak as they may be, on one side of 0. A brake
-/// that holds as much as the motor has the same limits, so that only the name of the loss tells.
-bool resists(const ScenarioLimits& limits, const ScenarioLimits& driven) {
-  constexpr std::string_view kLocked = " locked";
-  if (limits.name.ends_with(kLocked) || limits.name.find(" locked and ") != std::string::npos) {
-    return true;
-  }
-  for (Eigen::Index i = 0; i < limits.actuation.u_max.size(); ++i) {
-    const double low = limits.actuation.u_min[i], high = limits.actuation.u_max[i];
-    if (low < 0 && high > 0 &&
-        (low != driven.actuation.u_min[i] || high != driven.actuation.u_max[i])) {
-      return true;
-    }
-  }
-  return false;
 }
 
 /// The scenarios that the tank carries out. Where actuators die, all of them work at first.
@@ -143,7 +124,7 @@ void require_tank_scenarios(const Problem& problem) {
     throw_untankable(problem, "loads that are uncertain or in a current", "the nominal robot");
   }
   for (const ScenarioLimits& limits : list.limits) {
-    if (resists(limits, list.limits.front())) {
+    if (limits.resists) {
       throw_untankable(problem, "a joint that is locked or has friction",
                        "limp joints without friction");
     }

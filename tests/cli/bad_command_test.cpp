@@ -169,7 +169,7 @@ TEST_P(BadFile, ExitsWithTwoAndOneLine) {
 }
 
 /// A broken file among the shipped ones hides none of the others.
-TEST(BadShippedFile, IsNamedBesideTheHealthyOnes) {
+TEST(BadShippedFile, SLOW_IsNamedBesideTheHealthyOnes) {
   const TemporaryFolder folder;
   const auto list = [&](const std::string& problems) {
     return run_maxwrench(

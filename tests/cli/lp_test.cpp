@@ -69,7 +69,7 @@ TEST(LpCommand, DualsAndConstantInTheFilesOwnSense) {
 }
 
 /// All files that come with the tests, by the rational numbers that `verify` checks.
-TEST(NetlibCommand, VerdictsAreProvenInRationalNumbers) {
+TEST(NetlibCommand, SLOW_VerdictsAreProvenInRationalNumbers) {
   const TemporaryFolder folder;
   const std::string proof = (folder.path() / "proof.json").string();
   int files = 0;

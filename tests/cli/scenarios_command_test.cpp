@@ -63,7 +63,7 @@ TEST(ScenariosCommand, EvalSaysWhatDecidesInTime) {
 }
 
 /// The tank carries out each scenario, and a proof has a part for each.
-TEST(ScenariosCommand, SimulatesAndProvesEachScenarioInTime) {
+TEST(ScenariosCommand, SLOW_SimulatesAndProvesEachScenarioInTime) {
   const TemporaryFolder folder;
   const std::string task = " examples/tasks/turn_along_with_a_dead_thruster.toml ";
   const CommandResult ran = run_maxwrench("simulate" + task + "--json");

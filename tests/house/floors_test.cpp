@@ -18,19 +18,28 @@ const std::vector<std::vector<std::string>> kFloors = {
     {"view"}, {"cli", "python"}, {"examples", "tests"}};
 
 /// Public headers stand on the floor of their implementation.
-const std::map<std::string, std::string> kImplementedIn = {
-    {"strategies.h", "solvers"},  {"path_searches.h", "solvers"},
-    {"batch.h", "solvers"},       {"bound.h", "solvers"},
-    {"version.h", "solvers"},     {"solve.h", "solvers"},
-    {"load.h", "problems"},       {"certify.h", "solvers"},
-    {"verification.h", "verify"}, {"mps.h", "problems"},
-    {"held.h", "solvers"},        {"trajectory_proof.h", "solvers"},
-    {"task.h", "problems"},       {"figures.h", "drawing"},
-    {"evaluations.h", "solvers"}, {"wrench_set.h", "solvers"},
-    {"explain.h", "solvers"},     {"sensitivity.h", "solvers"},
-    {"map.h", "solvers"},         {"pareto.h", "solvers"},
-    {"margin.h", "solvers"},      {"motion_table.h", "problems"},
-    {"plan_bound.h", "solvers"}};
+const std::map<std::string, std::string> kImplementedIn = {{"strategies.h", "solvers"},
+                                                           {"batch.h", "solvers"},
+                                                           {"bound.h", "solvers"},
+                                                           {"version.h", "solvers"},
+                                                           {"solve.h", "solvers"},
+                                                           {"load.h", "problems"},
+                                                           {"certify.h", "solvers"},
+                                                           {"verification.h", "verify"},
+                                                           {"mps.h", "problems"},
+                                                           {"held.h", "solvers"},
+                                                           {"trajectory_proof.h", "solvers"},
+                                                           {"task.h", "problems"},
+                                                           {"figures.h", "drawing"},
+                                                           {"evaluations.h", "solvers"},
+                                                           {"wrench_set.h", "solvers"},
+                                                           {"explain.h", "solvers"},
+                                                           {"sensitivity.h", "solvers"},
+                                                           {"map.h", "solvers"},
+                                                           {"pareto.h", "solvers"},
+                                                           {"margin.h", "solvers"},
+                                                           {"motion_table.h", "problems"},
+                                                           {"plan_bound.h", "solvers"}};
 
 /// How deep a chain of our own includes may go.
 constexpr int kMostIncludeDepth = 10;

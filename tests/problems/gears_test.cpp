@@ -126,7 +126,7 @@ TEST_F(GearsInTheChain, TheLeaderIsRedundantAndTheOtherFollows) {
 
 /// The load of the second stage is reflected to the motor: the same robot with one joint in place
 /// of the column has the same values, gradients and optimum.
-TEST_F(GearsInTheChain, ATelescopeIsAsStrongAsOneJointInItsPlace) {
+TEST_F(GearsInTheChain, SLOW_ATelescopeIsAsStrongAsOneJointInItsPlace) {
   for (const double ratio : {1.0, 0.5, -0.25}) {
     for (const double effort : {1000.0, 260.0}) {  // the arm decides, or the column
       const Problem geared = make_problem(lift_with(telescope(ratio, effort)));

@@ -192,7 +192,7 @@ class UvmsReference : public Uvms {
 
 /// The axis of the shoulder yaw is vertical, so a pure torque about the vertical passes through
 /// this joint, whose limit is 9 N m.
-TEST_F(UvmsReference, DefaultPostureHasTheKnownCapability) {
+TEST_F(UvmsReference, SLOW_DefaultPostureHasTheKnownCapability) {
   EXPECT_NEAR(capability(valve_, "linf_polytope", Wrench::kPure), 9, 1e-9);
   for (const Problem* problem : {&valve_, &lift_}) {
     const double ellipsoid = capability(*problem, "ellipsoid", Wrench::kPure);

@@ -18,7 +18,7 @@ using ListTree = CertificateTree;
 
 /// Certificates of all forms but currents, as `certify` writes them, are verified at any thread
 /// count, and after they have been a file.
-TEST(ListProof, IsVerified) {
+TEST(ListProof, SLOW_IsVerified) {
   for (const ListForm& form : list_forms()) {
     const Problem task = scenario_task(form.wrench, form.tables);
     Options options;

@@ -39,9 +39,10 @@ void read_claim(const Problem& problem, const std::vector<TrajectoryCertificate>
   for (std::size_t i = 0; i < proofs.size(); ++i) {
     const ScenarioTask one = scenario_task(problem, static_cast<int>(i));
     const double factor = least_factor(proofs[i].value, one.length);
-    if (result.guaranteed <= factor) continue;
+    if (i > 0 && !(factor < result.guaranteed) && !std::isnan(factor)) continue;
     result.guaranteed = factor;
     result.decides = one.name;
+    if (std::isnan(factor)) return;
   }
 }
 

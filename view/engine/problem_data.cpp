@@ -22,7 +22,7 @@ struct PathMembers {
 namespace {
 
 /// The first bytes. The number is the version of everything that follows.
-constexpr std::string_view kBegin = "maxwrench task 3\n";
+constexpr std::string_view kBegin = "maxwrench task 4\n";
 constexpr std::size_t kChecksumBytes = 8;
 
 /// Writes values. `Reading` has the same functions, so each type's members are listed once.
@@ -153,7 +153,7 @@ void put(Archive& to, Collision& x) {
 template <class Archive>
 void put(Archive& to, Robot& x) {
   put_all(to, x.name, x.base_axes, x.mount, x.links, x.joints, x.thrusters, x.end_effectors,
-          x.gravity, x.water_density, x.trim.buoyancy_mass, x.trim.position, x.actuation,
+          x.gravity, x.water_density, x.current, x.trim.buoyancy_mass, x.trim.position, x.actuation,
           x.u_rate_max, x.limits);
 }
 template <class Archive>
@@ -239,9 +239,6 @@ std::string why_no_engine(const Problem& problem) {
   }
   if (problem.motion && !problem.scenarios.empty()) {
     return problem.name + ": a list of scenarios in time, expected one wrench";
-  }
-  if (problem.motion && !problem.robot.current.isZero(0)) {
-    return problem.name + ": a task in time in a current, expected still water";
   }
   if (problem.motion && problem.motion->thruster_lag != 0) {
     return problem.name + ": a lag of thrusters, expected thrust without lag";

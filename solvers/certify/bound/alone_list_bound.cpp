@@ -72,18 +72,26 @@ PlanInstant instant_with(const Problem& alone, const std::vector<const LoadCase*
   Robot& robot = at.task.robot;
   robot.parts.clear();
   robot.current.setZero();
+  std::vector<LinkLoad> changes(robot.links.size());  // the sum of the cases' on each link
   for (const LoadCase* load : cases) {
     at.x.twist.head<3>() -= load->current;
-    for (const LinkLoad& change : load->loads) {
-      Link& link = robot.links[static_cast<std::size_t>(change.link)];
-      const Eigen::Vector3d moment = link.mass * link.com + change.moment;
-      link.mass += change.mass;
-      // Only its weight counts, so a link may weigh less than nothing, but not nothing.
-      if (std::abs(link.mass) < 1e-6 * (1 + std::abs(change.mass))) {
-        reject_alone(alone, "a load that takes all mass of '" + link.name + "'", "a heavier link");
-      }
-      link.com = moment / link.mass;
+    for (const LinkLoad& each : load->loads) {
+      LinkLoad& change = changes[static_cast<std::size_t>(each.link)];
+      change.mass += each.mass;
+      change.moment += each.moment;
     }
+  }
+  for (std::size_t i = 0; i < changes.size(); ++i) {
+    const LinkLoad& change = changes[i];
+    if (change.mass == 0 && change.moment.isZero(0)) continue;
+    Link& link = robot.links[i];
+    const Eigen::Vector3d moment = link.mass * link.com + change.moment;
+    link.mass += change.mass;
+    // Only its weight counts, so a link may weigh less than nothing, but not nothing.
+    if (std::abs(link.mass) < 1e-6 * (1 + std::abs(change.mass))) {
+      reject_alone(alone, "loads that take all mass of '" + link.name + "'", "a heavier link");
+    }
+    link.com = moment / link.mass;
   }
   return at;
 }
@@ -95,7 +103,7 @@ std::vector<std::vector<const LoadCase*>> choices_of(const Problem& problem, Wre
     std::vector<std::vector<const LoadCase*>> longer;
     for (const auto& some : all) {
       for (const LoadCase& load : group) {
-        if (wrench == Wrench::kAny && !load.current.isZero()) continue;
+        if (wrench == Wrench::kAny && !load.current.isZero(0)) continue;
         longer.push_back(some);
         longer.back().push_back(&load);
       }
@@ -109,7 +117,8 @@ std::vector<std::vector<const LoadCase*>> choices_of(const Problem& problem, Wre
   return all;
 }
 
-/// The scenarios with a wrench and finite limits.
+/// The scenarios with a wrench and finite limits. Those that have no bound are left out if others
+/// have one: the least of some bounds is a bound of the list.
 std::vector<Alone> scenarios_alone(const Problem& problem, Wrench wrench) {
   const auto choices = choices_of(problem, wrench);
   const int count = scenario_count(problem);
@@ -120,16 +129,22 @@ std::vector<Alone> scenarios_alone(const Problem& problem, Wrench wrench) {
                  "at most " + std::to_string(kMostAlone) + " of them");
   }
   std::vector<Alone> all;
+  std::string why;  // one has no bound
   for (int i = 0; i < count; ++i) {
     const ScenarioTask one = scenario_alone(problem, i);
     const Zonotope& set = one.task.robot.actuation;
     if (one.length == 0 || !set.u_min.allFinite() || !set.u_max.allFinite()) continue;
     for (const auto& cases : choices) {
       auto at = std::make_shared<const PlanInstant>(instant_with(one.task, cases));
-      std::unique_ptr<Bound> bound = bound_alone(*at, wrench);
-      all.push_back({std::move(at), one.length, std::move(bound)});
+      try {
+        std::unique_ptr<Bound> bound = bound_alone(*at, wrench);
+        all.push_back({std::move(at), one.length, std::move(bound)});
+      } catch (const std::invalid_argument& error) {
+        why = error.what();
+      }
     }
   }
+  if (all.empty() && !why.empty()) throw std::invalid_argument(why);
   if (all.empty()) reject_alone(problem, "no scenario with finite limits", "one");
   return all;
 }
@@ -184,8 +199,8 @@ class AloneListBound final : public Bound {
  private:
   /// Beyond the rounding of a product or quotient.
   static constexpr double kFactorRounding = 4 * std::numeric_limits<double>::epsilon();
-  static double up(double x) { return x + kFactorRounding * std::abs(x); }
-  static double down(double x) { return x - kFactorRounding * std::abs(x); }
+  static double up(double x) { return std::isfinite(x) ? x + kFactorRounding * std::abs(x) : x; }
+  static double down(double x) { return std::isfinite(x) ? x - kFactorRounding * std::abs(x) : x; }
 
   std::vector<Alone> scenarios_;
 };
@@ -195,7 +210,7 @@ class AloneListBound final : public Bound {
 bool has_still_water(const ScenarioList& list) {
   return std::all_of(list.loads.begin(), list.loads.end(), [](const LoadGroup& group) {
     return std::any_of(group.begin(), group.end(),
-                       [](const LoadCase& load) { return load.current.isZero(); });
+                       [](const LoadCase& load) { return load.current.isZero(0); });
   });
 }
 

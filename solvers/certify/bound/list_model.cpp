@@ -79,7 +79,7 @@ void ListModel::leave_out() {
     cases.clear();
     for (std::size_t i = 0; i < list().loads[group].size(); ++i) {
       const LoadCase& load = list().loads[group][i];
-      if (!load.current.isZero()) continue;
+      if (!load.current.isZero(0)) continue;
       cases.push_back(load);
       numbers.push_back(static_cast<int>(i));
     }

@@ -83,9 +83,8 @@ class PureBound final : public Bound {
       value(low, high);
     }
     if (model_->m > 0) linear_.precondition(lower, upper);
-    rows_used_ = equation_rows_ == model_->m
-                     ? equation_rows_
-                     : std::min<Eigen::Index>(linear_.rank(), equation_rows_);
+    rows_used_ = model_->size > kFew ? equation_rows_
+                                     : std::min<Eigen::Index>(linear_.rank(), equation_rows_);
     if (ellipsoid_) aim(lower, upper, low, high, proof);
     if (proof.high <= low || entries_.size() == 0) return;
     improve_by_rounds(low, high, proof);
@@ -95,12 +94,12 @@ class PureBound final : public Bound {
   static constexpr int kMostSteps = 120;
   static constexpr double kBelow = 1e-9;
   static constexpr double kClose = 0.1;
+  static constexpr Eigen::Index kFew = 1000;  ///< control points
 
   /// The rows of M f in the program. Those after the rank of M have no linear terms; in large boxes
   /// their terms of second order help. A box with few control points is cheaper to cut than to
   /// bound with them.
   static Eigen::Index equation_rows(const LoopModel& model) {
-    constexpr Eigen::Index kFew = 1000;
     const Eigen::Index linear = model.coordinates.chain.count();
     return model.size <= kFew ? std::min(model.m, linear) : model.m;
   }

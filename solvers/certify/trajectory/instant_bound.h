@@ -19,9 +19,10 @@ struct PlanInstant {
   /// A static task with one contact whose base's pose follows in closed form: the pose and c of
   /// this instant, and the ranges of theta_r as its limits.
   Problem task;
-  PathPoint x;
+  PathPoint x;  ///< in axes that move with the current, so that the water is at rest
   InstantRanges ranges;
   bool knot = true;  ///< whether plans are held to be free of collisions here
+  Eigen::Vector3d current = Eigen::Vector3d::Zero();  ///< [m/s], in axes of the world
 
   /// Whether theta_r rests, and so does the path.
   bool rests() const;

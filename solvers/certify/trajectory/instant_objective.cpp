@@ -13,16 +13,21 @@ namespace {
 ///
 ///     max t   subject to   B u - t J'c - sum_j q_ddot_j m_j = tau_0
 ///
-/// over u and q_ddot within their limits.
+/// over u and q_ddot within their limits. The base may lack axes along which the water moves, so
+/// the motion is that in axes of the world.
 class InstantObjective final : public Objective {
  public:
   explicit InstantObjective(const PlanInstant& at)
       : at_(at),
         lower_(at.lower()),
         upper_(at.upper()),
-        motion_(at.task),
-        dynamics_(at.task.robot),
-        solver_(make_simplex()) {}
+        task_(task_in_current(at)),
+        x_(at.x),
+        motion_(task_),
+        dynamics_(task_.robot),
+        solver_(make_simplex()) {
+    x_.twist.head<3>() += at.current;
+  }
 
   const Eigen::VectorXd& lower() const override { return lower_; }
   const Eigen::VectorXd& upper() const override { return upper_; }
@@ -32,7 +37,7 @@ class InstantObjective final : public Objective {
   }
 
   double evaluate(const Eigen::VectorXd& x, Eigen::VectorXd* /*gradient*/) override {
-    const Problem& task = at_.task;
+    const Problem& task = task_;
     const Zonotope& set = task.robot.actuation;
     const Eigen::Index r = task.redundancy(), n = task.robot.velocities(), m = set.actuators();
     const Eigen::VectorXd q = x.head(r);
@@ -70,15 +75,21 @@ class InstantObjective final : public Objective {
   }
 
  private:
+  static Problem task_in_current(const PlanInstant& at) {
+    Problem task = at.task;
+    task.robot.current = at.current;
+    return task;
+  }
+
   void load(const Eigen::VectorXd& q, const Eigen::VectorXd& rates, const Eigen::VectorXd& bends,
             Eigen::VectorXd& tau) {
-    motion_.set(at_.x, q, rates, bends);
+    motion_.set(x_, q, rates, bends);
     dynamics_.set_configuration(motion_.base().R, motion_.q());
     dynamics_.inverse(motion_.v(), motion_.v_dot(), tau);
   }
 
   bool collides() const {
-    const CollisionChecker* const checker = at_.task.robot.collision.get();
+    const CollisionChecker* const checker = task_.robot.collision.get();
     return checker && checker->colliding_pair(dynamics_.kinematics().links()) >= 0;
   }
 
@@ -89,6 +100,8 @@ class InstantObjective final : public Objective {
 
   const PlanInstant& at_;
   Eigen::VectorXd lower_, upper_;
+  Problem task_;  ///< in axes of the world
+  PathPoint x_;
   RobotMotion<double> motion_;
   Dynamics dynamics_;
   std::unique_ptr<LpSolver> solver_;

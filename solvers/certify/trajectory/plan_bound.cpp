@@ -72,8 +72,8 @@ PlanInstant instant_of(const Problem& problem, const SchemeMaps& maps, int insta
     plan.x.acceleration.setZero();
   }
   Problem& task = plan.task;
-  // In axes that move with the current, the water is at rest.
-  plan.x.twist.head<3>() -= problem.robot.current;
+  plan.current = problem.robot.current;
+  plan.x.twist.head<3>() -= plan.current;
   task.robot.current.setZero();
   if (problem.motion->c_turns) {
     const Eigen::Matrix3d turn = plan.x.pose.R * maps.x.front().pose.R.transpose();

@@ -69,7 +69,7 @@ TEST(Compare, SLOW_WritesTheSameValuesAgain) {
 
 /// Searches that support both problems stand before those that support one; each line has as many
 /// cells as the head.
-TEST(Compare, SumsUpOverAllProblems) {
+TEST(Compare, SLOW_SumsUpOverAllProblems) {
   const TemporaryFolder folder;
   const CommandResult result =
       run_maxwrench("compare planar/force uvms/lift --budget 500 --seeds 1 --out .", folder.path());

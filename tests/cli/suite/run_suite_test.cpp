@@ -58,7 +58,7 @@ class RunSuite : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(RunSuite, GivesTheSameValuesAtAnyThreadCount) {
+TEST_F(RunSuite, SLOW_GivesTheSameValuesAtAnyThreadCount) {
   const std::string one = undisturbed();
   for (const char* threads : {"2", "8"}) {
     if (kSanitized && threads == std::string("8")) continue;
@@ -101,7 +101,7 @@ TEST_F(RunSuite, AFolderHasOneRunAtATime) {
 bool keeps_rows() { return names_sources(version()); }
 
 /// A torn line is no row; what is whole is not computed again, unless the sources were changed.
-TEST_F(RunSuite, KeepsTheRowsOfAJournal) {
+TEST_F(RunSuite, SLOW_KeepsTheRowsOfAJournal) {
   const std::string one = undisturbed();
   fs::remove(folder_.path() / "one/values.csv.gz");
   std::ofstream(folder_.path() / "one/values.csv.part") << one.substr(0, one.size() - 5);
@@ -120,7 +120,7 @@ TEST_F(RunSuite, KeepsTheRowsOfAJournal) {
   EXPECT_EQ(table("one/values.csv"), one);
 }
 
-TEST_F(RunSuite, ShardsMergeToOneRun) {
+TEST_F(RunSuite, SLOW_ShardsMergeToOneRun) {
   const std::string one = undisturbed();
   for (const char* index : {"1", "2", "3"}) {
     ASSERT_LT(run(fmt::format("--shard {0}/3 --out part{0}", index)).exit_status, 2);
@@ -211,7 +211,7 @@ TEST_F(RunSuite, CountsAndNamesItsRows) {
 
 /// Experiments of a static task and of one in time: the same rows on two threads, and the reading
 /// of the command that stands for each.
-TEST_F(RunSuite, CarriesOutExperiments) {
+TEST_F(RunSuite, SLOW_CarriesOutExperiments) {
   std::ofstream(folder_.path() / "suite.toml")
       << "[[product]]\nproblem = ['uvms/lift', 'uvms/lift_impulse']\nintegrator = 'cvode'\n";
   ASSERT_EQ(run("--threads 1 --out one").exit_status, 0);

@@ -55,7 +55,7 @@ TEST(ExplainCommand, AddsAKeyToTheJson) {
   EXPECT_FALSE(json::parse(run_maxwrench("eval uvms/lift --json").out).contains("explanation"));
 }
 
-TEST(ExplainCommand, OfSolveHasRatesOfTheBestPosture) {
+TEST(ExplainCommand, SLOW_OfSolveHasRatesOfTheBestPosture) {
   const json what = explained("solve uvms/valve")["explanation"];
   EXPECT_TRUE(what["best_posture"]["missing"].is_null());
   EXPECT_LT(what["best_posture"]["residual"], 1e-6);

@@ -55,7 +55,7 @@ TEST(LagCommand, AProofRejectsALag) {
   EXPECT_NE(result.err.find("motion.thruster_lag"), std::string::npos) << result.err;
 }
 
-TEST(LagCommand, TheTankRequestsWhatThrustersReach) {
+TEST(LagCommand, SLOW_TheTankRequestsWhatThrustersReach) {
   const CommandResult result = run_maxwrench("simulate planar/trajectory --invert-lag --json");
   ASSERT_EQ(result.exit_status, 0) << result.err;
   const json object = json::parse(result.out);

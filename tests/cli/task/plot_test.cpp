@@ -50,7 +50,7 @@ TEST(PlotCommand, DrawsThePosturesOfATrajectory) {
 }
 
 /// The value in the caption is the one that `solve` prints, with four digits.
-TEST(PlotCommand, TheBestPostureIsThatOfSolve) {
+TEST(PlotCommand, SLOW_TheBestPostureIsThatOfSolve) {
   for (const char* words : {"planar/force --search grid+cmaes --budget 500 --seed 3", "fixed/push",
                             "uvms/lift --search cmaes --budget 300 --measure "
                             "ellipsoid"}) {

@@ -77,7 +77,7 @@ TEST(SimulateCommand, WritesOneRowForEachPeriodAndAFigure) {
   EXPECT_NE(svg.find("</svg>"), std::string::npos);
 }
 
-TEST(SimulateCommand, SameSeedSameRows) {
+TEST(SimulateCommand, SLOW_SameSeedSameRows) {
   const TemporaryFolder folder;
   const auto rows = [&](const std::string& words) {
     EXPECT_EQ(run_maxwrench(kShort + words + " --out rows.csv", folder.path()).exit_status, 0);
@@ -90,7 +90,7 @@ TEST(SimulateCommand, SameSeedSameRows) {
 }
 
 /// The whole kilograms that the polytope carries.
-TEST(SimulateCommand, FindsTheHeaviestLoad) {
+TEST(SimulateCommand, SLOW_FindsTheHeaviestLoad) {
   const json lift = json::parse(run_maxwrench("eval uvms/lift --json").out);
   const int most = static_cast<int>(std::floor(lift["beta"].get<double>() / 9.81));
   EXPECT_GT(most, 0);

@@ -52,7 +52,7 @@ TEST(TankDeath, SLOW_WhatSurvivesTheLossIsHeld) {
 
 /// Nothing changes before; afterwards the thruster exerts nothing, and no rate limit is violated by
 /// its end.
-TEST(TankDeath, TheThrusterExertsNothingFromThenOn) {
+TEST(TankDeath, SLOW_TheThrusterExertsNothingFromThenOn) {
   const TankRun whole = lift_with_a_death(14.5, 14.5), dead = lift_with_a_death(14.5, 7);
   const Problem problem = load_problem("uvms/lift");
   const int i = death_of(problem.robot, "dies", kDyingThruster, 0).actuator;

@@ -76,7 +76,7 @@ TEST(TankMotion, ASplineTurnReadsWhatIsAskedForAllAlong) {
   EXPECT_NEAR(tank.samples[249].angle, pi / 2, 1e-6);
 }
 
-TEST(TankMotion, EachSchemesTurnAtRestIsHeld) {
+TEST(TankMotion, SLOW_EachSchemesTurnAtRestIsHeld) {
   for (const Scheme scheme : {Scheme::kForward, Scheme::kEnds}) {
     const Problem problem = turn_of(scheme);
     const TankScript script = script_of(problem, constant_knots(problem, kStill),

@@ -89,7 +89,7 @@ TEST_P(TankTest, SLOW_OneNewtonMetreMoreIsNotHeld) {
       run(problem, planned(problem, GetParam().wrench, GetParam().theta_r), 1));
 }
 
-TEST(Tank, RandomPosturesHoldWhatIsPlannedAndNoMore) {
+TEST(Tank, SLOW_RandomPosturesHoldWhatIsPlannedAndNoMore) {
   const Problem problem = load_problem("uvms/valve");
   TankOptions options;
   options.hold = 3;
@@ -107,7 +107,7 @@ TEST(Tank, RandomPosturesHoldWhatIsPlannedAndNoMore) {
 }
 
 /// beta_1 is what an ellipsoid inside the polytope reaches, so there is room beyond it.
-TEST(Tank, TheEllipsoidsTrajectoryAndOneNewtonMetreMoreAreHeld) {
+TEST(Tank, SLOW_TheEllipsoidsTrajectoryAndOneNewtonMetreMoreAreHeld) {
   const Problem problem = load_problem("uvms/valve");
   TankOptions options;
   options.until_hold = true;

@@ -145,7 +145,7 @@ Dense dense_least(const Problem& problem, const ClampedSpline& curve, int interv
   return dense;
 }
 
-TEST(LeastClearance, IsThatOfAMuchDenserCurve) {
+TEST(LeastClearance, SLOW_IsThatOfAMuchDenserCurve) {
   const Problem problem = load_problem("uvms/valve_trajectory");
   const int k = problem.motion->k;
   TrajectoryEvaluator evaluator = evaluator_of(problem);

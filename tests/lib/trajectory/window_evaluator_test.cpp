@@ -56,6 +56,28 @@ TEST(WindowEvaluator, OfAllKnotsIsTheTask) {
   }
 }
 
+/// Where no efforts balance the motion, it is the elastic value of the whole task.
+TEST(WindowEvaluator, HasThePriceOfMissingEfforts) {
+  for (const char* name : kWindowTasks) {
+    Problem problem = load_problem(name);
+    Zonotope& set = problem.robot.actuation;
+    set = with_limits(set, 0.01 * set.u_min, 0.01 * set.u_max);
+    problem.motion->path = Path::screw(problem.pose, Eigen::Vector3d::UnitZ(), problem.pose.p, 0,
+                                       Eigen::Vector3d(2, 0, 0), Timing::kLinear, 1);
+    problem.motion->T = 1;
+    const auto objective = window_objective(problem);
+    const int k = problem.motion->k;
+    const auto window = window_of(*objective, make_spline_window(*problem.motion, 0, k - 1));
+    const Eigen::MatrixXd P = drawn_points(problem, k, 0.05);
+    const double value = window->evaluate(P);
+    const Eigen::MatrixXd knots = knots_of_spline(P);
+    const double elastic = objective->trajectories().evaluate_elastic(knots, nullptr);
+    ASSERT_EQ(objective->trajectories().evaluate(knots).status, Status::kInfeasible) << name;
+    EXPECT_NEAR(value, elastic, 1e-7 * (1 + std::abs(elastic))) << name;
+    EXPECT_TRUE(window->coupled());
+  }
+}
+
 /// If a plan is at rest at the end of a window, each window of it has the positions, rates and
 /// accelerations of the clamped spline through the knots of the whole plan.
 TEST(WindowEvaluator, IsAStretchOfTheSpline) {

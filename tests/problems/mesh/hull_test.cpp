@@ -63,7 +63,7 @@ TEST(Hull, KeepsItsVerticesIfTheyAreFew) {
   }
 }
 
-TEST(Hull, ContainsAllPointsWithFewVertices) {
+TEST(Hull, SLOW_ContainsAllPointsWithFewVertices) {
   Random random(1);
   for (const int count : {65, 200, 800}) {
     if (kSanitized && count > 200) continue;

@@ -110,7 +110,7 @@ TEST(Extremal, SLOW_OfTheTwoLinkArmMovesThePublishedMass) {
 }
 
 /// A climb that ends in the middle says so.
-TEST(Extremal, EndsWhenNothingIsLeftToSpend) {
+TEST(Extremal, SLOW_EndsWhenNothingIsLeftToSpend) {
   const Problem problem = load_problem(kLuus);
   for (const int most : {0, 1, 5, kSanitized ? 6 : 20}) {
     int left = most;

@@ -108,7 +108,7 @@ Problem with_knots(const std::string& name, int k) {
 
 /// The task's own evaluation of all plans on the grid has no better one, and the plan that the
 /// program gives has its value.
-TEST(Dp, IsTheBestOfAllPathsOnTheGrid) {
+TEST(Dp, SLOW_IsTheBestOfAllPathsOnTheGrid) {
   struct Given {
     const char* task;
     int k, points;
@@ -147,7 +147,7 @@ TEST(Dp, LeavesOutWhatCannotExceedAKnownValue) {
 }
 
 /// Each grid has the points of the one before.
-TEST(Dp, IsMonotoneInRefinement) {
+TEST(Dp, SLOW_IsMonotoneInRefinement) {
   const Problem problem = with_knots("planar/trajectory", 4);
   double before = -kInfinity;
   for (const int points : {3, 5, 9}) {

@@ -41,6 +41,23 @@ Eigen::MatrixXd held_points(const Problem& problem, Eigen::Index count) {
   return problem.theta_r_default.transpose().replicate(count, 1);
 }
 
+/// In this current no efforts hold the default posture throughout, but other plans have efforts.
+TEST(MpcWindow, LeavesAPlanWithoutEfforts) {
+  Problem problem = load_problem("uvms/valve_trajectory");
+  problem.robot.current = {1.4, 0, 0};
+  const int k = problem.motion->k;
+  HorizonCase whole(problem, 0, k - 1);
+  const Eigen::MatrixXd start = held_points(problem, k);
+  const auto status = [&](const Eigen::MatrixXd& P) {
+    return whole.objective->trajectories().evaluate(knots_of_spline(P)).status;
+  };
+  ASSERT_EQ(status(start), Status::kInfeasible);
+  whole.window.set(start);
+  EXPECT_GT(whole.window.value(), -kInfinity);
+  whole.window.optimise(60);
+  EXPECT_EQ(status(whole.window.points()), Status::kOptimal) << whole.window.value();
+}
+
 /// The horizon of the whole path: its value is that of the task, and not above the best plan that
 /// `slp` finds from many starts.
 TEST(MpcWindow, OfTheWholePathIsALocalOptimum) {

@@ -1,5 +1,3 @@
-#include "maxwrench/path_searches.h"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -107,6 +107,17 @@ TEST(ProjectedFlow, RaisesTheCapabilityAtAConstantPose) {
   }
 }
 
+/// A joint without a limit of its speed moves, too.
+TEST(ProjectedFlow, MovesJointsWithoutASpeedLimit) {
+  Problem problem = load_problem("planar/trajectory");
+  for (Joint& joint : problem.robot.joints) joint.velocity_max = kInfinity;
+  FlowCase given(problem);
+  const Eigen::VectorXd start = aside(problem, 0.1);
+  const Eigen::MatrixXd P = given.flow.flow(start);
+  EXPECT_TRUE(P.allFinite());
+  EXPECT_GT((P.row(1) - P.row(0)).norm(), 1e-3);
+}
+
 /// Neighbouring knots of the flow are as far apart as the joints' speeds permit at most, and within
 /// the limits.
 TEST(ProjectedFlow, KeepsLimitsAndSpeeds) {

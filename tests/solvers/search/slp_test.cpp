@@ -81,7 +81,7 @@ TEST(Slp, SameAtAnyThreadCount) {
 
 /// Whatever its objective counts: the best value that it has evaluated is the last of its history,
 /// and that of its point. Before, trajectories of higher value were seen and then left out.
-TEST(Slp, ReturnsTheBestOfItsObjective) {
+TEST(Slp, SLOW_ReturnsTheBestOfItsObjective) {
   for (const char* name : {"planar/trajectory", "mobile/trajectory"}) {
     const Problem problem = load_problem(name);
     for (const TrajectoryValue counts :

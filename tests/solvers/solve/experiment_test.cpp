@@ -43,7 +43,7 @@ TEST(Experiment, SLOW_IntegratorsReadTheSame) {
 }
 
 /// The default posture of the valve loads the first joint alone, whose limit is 9 N m.
-TEST(Experiment, TrajectoriesWhatThePostureHas) {
+TEST(Experiment, SLOW_TrajectoriesWhatThePostureHas) {
   const Answer row = experiment(load_problem("uvms/valve"), tried("uvms/valve", "cvode"));
   EXPECT_NEAR(row.beta_linf, 9, 1e-6);
 }

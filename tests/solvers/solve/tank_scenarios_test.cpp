@@ -1,5 +1,6 @@
 #include "solvers/solve/tank_scenarios.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,7 +11,9 @@
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
+#include "solvers/solve/tank.h"
 #include "tests/support/coded_tasks.h"
+#include "tests/support/scenario_task.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -56,7 +59,7 @@ TEST(ScenarioAlone, LeavesOutWhatIsDead) {
   EXPECT_TRUE(intact.task.scenarios.empty());
 }
 
-TEST(TankScenarios, TheValueOfAListIsHeldInEachScenario) {
+TEST(TankScenarios, SLOW_TheValueOfAListIsHeldInEachScenario) {
   const Problem problem = load_problem(example("lift_with_a_dead_thruster"));
   TankOptions options;
   options.until_hold = true;
@@ -89,7 +92,7 @@ TEST(TankScenarios, SLOW_MoreThanTheValueIsNotHeldByTheOneThatDecides) {
 }
 
 /// Readings are those of each wrench: both senses, of lengths 1 and 2, and none.
-TEST(TankScenarios, EachScenarioExertsItsOwnWrench) {
+TEST(TankScenarios, SLOW_EachScenarioExertsItsOwnWrench) {
   Problem problem = load_problem(example("turn_both_ways"));
   problem.scenarios.wrenches[1].c *= 2;
   problem.scenarios.wrenches.push_back({.name = "hold", .hold = true});
@@ -144,27 +147,26 @@ TEST(TankScenarios, RejectsWhatTheTankCannotBe) {
                 HasSubstr("for the virtual tank"))
         << name;
   }
-  Problem locked = load_problem(example("lift_with_a_dead_thruster"));
-  Zonotope& brake = locked.scenarios.limits[1].actuation;
-  brake = with_limits(brake, -Eigen::VectorXd::Constant(brake.u_min.size(), 1e4),
-                      Eigen::VectorXd::Constant(brake.u_min.size(), 1e4));
-  EXPECT_THAT(rejection_of([&] { require_tank_scenarios(locked); }), HasSubstr("locked"));
-  // A brake that holds as much as the motor exerts.
-  Problem as_strong = load_problem(example("lift_with_a_dead_thruster"));
-  ScenarioLimits& held = as_strong.scenarios.limits[1];
-  held.actuation = as_strong.scenarios.limits[0].actuation;
-  for (const char* name : {"q2_shoulder_pitch locked", "q2_shoulder_pitch locked and a dead"}) {
-    held.name = name;
-    EXPECT_THAT(rejection_of([&] { require_tank_scenarios(as_strong); }), HasSubstr("locked"));
+}
+
+/// A brake or friction is rejected, weaker or stronger than the motor or exactly as strong.
+TEST(TankScenarios, RejectsBrakesAndFriction) {
+  const double motor = load_problem("uvms/lift").robot.actuation.u_max.tail<1>()[0];
+  for (const double left : {0.5 * motor, motor, 2 * motor}) {
+    for (const bool locks : {false, true}) {
+      const std::string loss =
+          fmt::format("[loss]\nactuators = [\"q4_wrist_roll\"]\nany = 1\n{} = {}\n",
+                      locks ? "joints = \"locked\"\nbrake" : "friction", left);
+      const Problem problem = scenario_task(kLift, loss);
+      EXPECT_THAT(rejection_of([&] { require_tank_scenarios(problem); }),
+                  HasSubstr("locked or has friction"))
+          << loss;
+      EXPECT_TRUE(supported_integrators(problem, Case().measure).empty());
+    }
   }
-  // A brake or friction that is weaker than the drive.
-  Problem resisting = load_problem(example("lift_with_a_dead_thruster"));
-  Zonotope& left = resisting.scenarios.limits[1].actuation;
-  Eigen::VectorXd low = left.u_min, high = left.u_max;
-  low.tail<1>()[0] = -0.5;
-  high.tail<1>()[0] = 0.5;
-  left = with_limits(left, low, high);
-  EXPECT_THAT(rejection_of([&] { require_tank_scenarios(resisting); }), HasSubstr("has friction"));
+  require_tank_scenarios(
+      scenario_task(kLift, "[loss]\nactuators = [\"q4_wrist_roll\"]\nany = 1\n"));
+  EXPECT_FALSE(supported_integrators(load_problem("uvms/lift"), Case().measure).empty());
 }
 
 }  // namespace

@@ -88,6 +88,14 @@ Problem with_a_gear() {
   return make_problem(task);
 }
 
+/// A path in a current along x.
+Problem turn_in_a_current() {
+  Problem problem = load_problem("uvms/valve_trajectory");
+  problem.name += " in a current";
+  problem.robot.current = {0.3, 0, 0};  // [m/s]
+  return problem;
+}
+
 Json case_at(const Problem& problem, const Eigen::VectorXd& theta_r, const Options& options,
              bool with_parts) {
   const Answer answer = evaluate(problem, theta_r, options);
@@ -209,6 +217,7 @@ int main() {
     const std::string folder = MAXWRENCH_SOURCE_DIR "/examples/tasks/";
     tasks.push_back(trajectories_of(load_problem(folder + name + ".toml")));
   }
+  tasks.push_back(trajectories_of(turn_in_a_current()));
   tasks.push_back(cases_of(with_a_gear()));
   tasks.push_back(cases_of(with_cylinders()));
   std::puts(tasks.dump().c_str());

@@ -200,6 +200,41 @@ TEST(InstantBound, IsTightAtPoints) {
   }
 }
 
+/// The base of the planar vehicle cannot move along z, but water can. A tilted link turns that drag
+/// into the plane.
+TEST(InstantObjective, HasAllOfTheCurrent) {
+  PlanInstant at = plan_instant("planar/trajectory", 12);
+  at.knot = false;
+  at.ranges.bend.low.setZero();
+  at.ranges.bend.high.setZero();
+  HydrodynamicBody body;
+  body.frame.R = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 0).normalized()).toRotationMatrix();
+  body.damping_quadratic << 3, 6, 9, 0, 0, 0;
+  at.task.robot.water_density = 1000;
+  at.task.robot.links.back().hydrodynamics = {body};
+  const Eigen::Vector3d current(0.05, -0.1, 0.2);
+  PlanInstant world = at;
+  world.task.robot.current = current;
+  at.current = current;
+  at.x.twist.head<3>() -= current;
+  const auto objective = make_instant_objective(at);
+  MovingRobot robot(world), still(at);
+  Random random(23);
+  int feasible = 0, different = 0;
+  for (int sample = 0; sample < 60; ++sample) {
+    const Eigen::VectorXd x = drawn(random, at.lower(), at.upper());
+    robot.set(x, Eigen::VectorXd::Zero(at.task.redundancy()));
+    const double value = robot.value();
+    still.set(x, Eigen::VectorXd::Zero(at.task.redundancy()));
+    if (!std::isfinite(value)) continue;
+    ++feasible;
+    different += std::abs(still.value() - value) > 1e-6;
+    EXPECT_NEAR(objective->evaluate(x), value, 1e-8 * (1 + std::abs(value)));
+  }
+  EXPECT_GT(feasible, 10);
+  EXPECT_GT(different, 10);
+}
+
 /// Two knots that differ by D: the clamped cubic has the rate 6 s (1 - s) D/dt and the acceleration
 /// 6 D/dt^2 at its start. The limit V at s = 1/2, an instant, gives D <= V dt/1.5, so at most 4
 /// V/dt.
