@@ -48,7 +48,7 @@ void expect_known_columns(const fs::path& file) {
   }
 }
 
-TEST(Report, EveryColumnIsInTheDictionary) {
+TEST(Report, SLOW_EveryColumnIsInTheDictionary) {
   const fs::path out = small_run() / "columns";
   ASSERT_EQ(run_maxwrench("report run --out columns", small_run()).exit_status, 0);
   ASSERT_EQ(run_maxwrench("report --compare run again --out columns", small_run()).exit_status, 0);

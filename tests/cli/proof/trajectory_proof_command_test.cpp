@@ -92,7 +92,7 @@ TEST(CertifyTrajectoryCommand, RejectsWhatDoesNotApply) {
 }
 
 /// Without a trajectory: no trajectory exceeds the bound.
-TEST(BoundTrajectoriesCommand, BoundsWhatItFinds) {
+TEST(BoundTrajectoriesCommand, SLOW_BoundsWhatItFinds) {
   const CommandResult result = run_maxwrench("certify planar/trajectory --json");
   EXPECT_EQ(result.exit_status, 1) << result.err;
   const json bound = json::parse(result.out);

@@ -56,7 +56,7 @@ void try_examples(const fs::path& folder, const std::string& file, std::size_t e
   write_lines(folder / file, lines);
 }
 
-TEST(Init, WritesFilesToStartFrom) {
+TEST(Init, SLOW_WritesFilesToStartFrom) {
   for (const char* robot : {"ur10", "panda"}) {
     const TemporaryFolder folder;
     const std::string urdf = (kRobots / robot / (std::string(robot) + ".urdf")).string();

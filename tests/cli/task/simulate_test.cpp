@@ -23,7 +23,7 @@ json simulated(const std::string& words) {
   return json::parse(result.out);
 }
 
-TEST(SimulateCommand, SaysWhetherTheTrajectoryIsHeld) {
+TEST(SimulateCommand, SLOW_SaysWhetherTheTrajectoryIsHeld) {
   const json held = simulated(kShort);
   EXPECT_EQ(held["status"], "reached");
   EXPECT_EQ(held["planned"], 4);

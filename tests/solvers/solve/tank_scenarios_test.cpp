@@ -112,7 +112,7 @@ TEST(TankScenarios, SLOW_EachScenarioExertsItsOwnWrench) {
 }
 
 /// A loss that the list has is survived when it comes, whatever wrench it is.
-TEST(TankScenarios, DeathsAreAddedToTheWrenchesOfTheIntactRobot) {
+TEST(TankScenarios, SLOW_DeathsAreAddedToTheWrenchesOfTheIntactRobot) {
   const Problem problem = load_problem(example("lift_with_a_dead_thruster"));
   TankOptions options;
   options.until_hold = true;
