@@ -12,7 +12,7 @@ namespace maxwrench {
 namespace {
 
 constexpr const char* kLift = MAXWRENCH_SOURCE_DIR "/examples/tasks/two_link/lift.toml";
-constexpr double kStep = 1e-6;
+constexpr double kCanonicalStep = 1e-6;
 
 /// A random point of the state space, often beyond the limits of speeds, at which some efforts are
 /// at their limits and others are not.
@@ -41,22 +41,23 @@ TEST(CanonicalEquations, CostatesFallWithTheDerivativesOfH) {
     const Eigen::VectorXd u = equations.efforts();
     for (int i = 0; i < 4; ++i) {
       Eigen::VectorXd up = z, down = z;
-      up[i] += kStep;
-      down[i] -= kStep;
+      up[i] += kCanonicalStep;
+      down[i] -= kCanonicalStep;
       const double slope =
-          (other.hamiltonian(up, m, u) - other.hamiltonian(down, m, u)) / (2 * kStep);
+          (other.hamiltonian(up, m, u) - other.hamiltonian(down, m, u)) / (2 * kCanonicalStep);
       EXPECT_NEAR(rates[4 + i], -slope, 1e-6 * (1 + std::abs(slope))) << sample << ' ' << i;
     }
-    const double by_m =
-        (other.hamiltonian(z, m + kStep, u) - other.hamiltonian(z, m - kStep, u)) / (2 * kStep);
+    const double by_m = (other.hamiltonian(z, m + kCanonicalStep, u) -
+                         other.hamiltonian(z, m - kCanonicalStep, u)) /
+                        (2 * kCanonicalStep);
     EXPECT_NEAR(rates[8], -by_m, 1e-6 * (1 + std::abs(by_m)));
     // The states follow the derivatives of H by the costates.
     for (int i = 0; i < 4; ++i) {
       Eigen::VectorXd up = z, down = z;
-      up[4 + i] += kStep;
-      down[4 + i] -= kStep;
+      up[4 + i] += kCanonicalStep;
+      down[4 + i] -= kCanonicalStep;
       const double slope =
-          (other.hamiltonian(up, m, u) - other.hamiltonian(down, m, u)) / (2 * kStep);
+          (other.hamiltonian(up, m, u) - other.hamiltonian(down, m, u)) / (2 * kCanonicalStep);
       EXPECT_NEAR(rates[i], slope, 1e-6 * (1 + std::abs(slope)));
     }
   }
@@ -100,12 +101,12 @@ TEST(CanonicalEquations, LinearisationEqualsCentralDifferences) {
     for (int i = 0; i <= 9; ++i) {
       Eigen::VectorXd more = z, less = z;
       if (i < 9) {
-        more[i] += kStep;
-        less[i] -= kStep;
+        more[i] += kCanonicalStep;
+        less[i] -= kCanonicalStep;
       }
-      ASSERT_TRUE(other.rates(more, i < 9 ? m : m + kStep, up));
-      ASSERT_TRUE(other.rates(less, i < 9 ? m : m - kStep, down));
-      const Eigen::VectorXd slope = (up - down) / (2 * kStep);
+      ASSERT_TRUE(other.rates(more, i < 9 ? m : m + kCanonicalStep, up));
+      ASSERT_TRUE(other.rates(less, i < 9 ? m : m - kCanonicalStep, down));
+      const Eigen::VectorXd slope = (up - down) / (2 * kCanonicalStep);
       const Eigen::VectorXd found = i < 9 ? Eigen::VectorXd(by_z.col(i)) : by_m;
       EXPECT_LT((found - slope).norm(), 1e-5 * (1 + slope.norm())) << sample << ' ' << i;
     }
