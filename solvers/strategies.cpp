@@ -177,6 +177,10 @@ std::span<const MeasureEntry> measures() {
       {"ellipsoid_trace",
        "sum of squared radii of the weighted ellipsoid, scaled by the desired wrench", false, false,
        "-", of_problem<make_ellipsoid_trace>},
+      {"dynamic_manipulability", "largest acceleration along c, weighted ellipsoid of efforts",
+       false, false, nullptr, of_problem<make_dynamic_manipulability>, true},
+      {"dynamic_capability", "acceleration that every direction allows within all limits", false,
+       false, nullptr, of_problem<make_dynamic_capability>, true},
   };
   return kMeasures;
 }

@@ -23,7 +23,7 @@ struct ScenarioChoice {
 ///
 /// The status is kOptimal, or the reason why there is no value.
 struct Capability : Verdict {
-  double beta = 0;    ///< c'h [N or N m], or a score in a unit of its own
+  double beta = 0;    ///< c'h [N or N m], or a score or an acceleration in a unit of its own
   Eigen::VectorXd w;  ///< wrench coordinates (k); empty, with h zero, if the measure has no wrench
   Vector6d h;         ///< wrench W w of the first contact: what the robot exerts, in world axes
   Eigen::VectorXd u;  ///< actuator efforts (m); empty unless they were requested
@@ -39,6 +39,11 @@ struct Capability : Verdict {
   ///
   ///     d beta = lambda'd tau_d + <beta_J, d J>
   Matrix6Xd beta_J;
+  /// Derivative d beta/d q (all joints) at constant tau_d and J; empty if the measure depends on
+  /// the posture through these two alone.
+  ///
+  /// It adds `beta_q'd q` to d beta. Measures of accelerations have it, because M depends on q.
+  Eigen::VectorXd beta_q;
   /// Wrench of the second contact, in world axes at the contact point; zero without one.
   Vector6d h_2 = Vector6d::Zero();
   /// Derivative d beta/d J_2 (6×n) of a second contact; empty without one.
@@ -55,7 +60,8 @@ struct Capability : Verdict {
   int iterations = 0;  ///< iterations of the solver
   /// The residual of the result, filled together with u.
   ///
-  /// Balance: max |B u - J'W w - tau_d| [N, N m]. Bounds: violations by u and w (ellipsoid:
+  /// Balance: max |B u - J'W w - tau_d| [N, N m]; of an acceleration that of its equation of
+  /// motion. Bounds: violations by u and w (ellipsoid:
   /// ||W_u u| - 1|). Dual: violations in the columns without bounds. Gap: [N or N m]. A result
   /// counts if all four are within a tolerance times 1 + |beta|.
   Residual residual;

@@ -40,7 +40,7 @@ class Measure {
   /// is true it does not clear. The arguments are those of `evaluate`.
   virtual void evaluate_well_formed(const Posture& posture, const WrenchProgram& program,
                                     bool efforts, Capability& capability) = 0;
-  /// Computes the derivatives lambda, beta_J, beta_J2 and beta_C2 of the last result.
+  /// Computes the derivatives lambda, beta_J, beta_q, beta_J2 and beta_C2 of the last result.
   ///
   /// It is called only where a gradient is wanted, so a measure whose derivatives cost much more
   /// than its value can leave them to this function. The default does nothing: most measures fill
@@ -181,5 +181,34 @@ std::unique_ptr<Measure> make_saturating_wrench(const Robot& robot);
 ///
 /// @throws std::invalid_argument as `make_ellipsoid`.
 std::unique_ptr<Measure> make_ellipsoid_trace(const Problem& problem);
+
+/// Makes the dynamic manipulability: the largest acceleration along c [m/s^2 or rad/s^2].
+///
+/// The robot is at rest without contact, so M v_dot + tau_d = B u and a = J v_dot, and M has the
+/// added mass. The value is the positive root along c of the ellipsoid of all such a with
+/// |W_u u| <= 1. The axes of W_any count: a is beta c on them. The efforts of the result are those
+/// of this acceleration.
+///
+/// @param problem  the task, which must outlive the measure
+/// @throws std::invalid_argument if an actuator cannot act in both directions, or if the task has a
+///         second contact, or the robot a gear or a link that no body can have.
+std::unique_ptr<Measure> make_dynamic_manipulability(const Problem& problem);
+
+/// Makes the dynamic capability: the linear or angular acceleration that is possible in every
+/// direction [m/s^2 or rad/s^2].
+///
+/// If c is a force, it is the largest beta such that each linear acceleration a on the axes of
+/// W_any with |a| <= beta, without angular acceleration, keeps all efforts within their limits; if
+/// c is a torque, the same for angular ones. At rest without contact these efforts are
+///
+///     u = B^+ (tau_d + J'W Lambda W'a),   Lambda = (W'J M^-1 J'W)^-1.
+///
+/// The efforts of the result are those of the worst direction. Of the hypersurface of Bowling and
+/// Khatib it is the section without velocities and forces.
+///
+/// @param problem  the task, which must outlive the measure
+/// @throws std::invalid_argument if B does not have full row rank, or c has both force and torque,
+///         or as `make_dynamic_manipulability` for a task or robot without accelerations.
+std::unique_ptr<Measure> make_dynamic_capability(const Problem& problem);
 
 }  // namespace maxwrench

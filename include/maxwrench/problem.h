@@ -111,6 +111,9 @@ struct Problem {
   /// Returns the unit of beta: "N" if c is a pure force, "N m" if it is a pure torque, else
   /// "mixed". A list of scenarios has its own. A payload has "kg", a table of wrenches "-".
   const char* unit() const;
+  /// Returns the unit of an acceleration along c: "m/s^2" if c is a pure force, "rad/s^2" if it is
+  /// a pure torque, else "mixed".
+  const char* acceleration_unit() const;
   /// Returns the type of the task: "static", "trajectory", "impulse" or "transfer".
   const char* type() const;
 };

@@ -31,6 +31,9 @@ struct MeasureEntry {
   const char* unit;     ///< of its value; null: that of the wrench along c
   /// Makes the measure for a problem, which must outlive it.
   std::function<std::unique_ptr<Measure>(const Problem&, std::unique_ptr<WrenchSolver>)> make;
+  /// Whether the value is an acceleration along c: its unit is then `Problem::acceleration_unit`.
+  /// It needs the masses of a robot without gears, and a task of one contact.
+  bool acceleration = false;
 };
 
 /// A solver of general linear programs in the table.

@@ -10,7 +10,7 @@ namespace maxwrench {
 void Capability::clear() {
   conclude(Status::kNumericalError, "nothing was computed");
   beta = 0;
-  for (Eigen::VectorXd* each : {&w, &u, &lambda}) each->setZero();
+  for (Eigen::VectorXd* each : {&w, &u, &lambda, &beta_q}) each->setZero();
   h.setZero();
   h_2.setZero();
   for (Matrix6Xd* each : {&beta_J, &beta_J2, &beta_C2}) each->setZero();
@@ -29,6 +29,7 @@ void Measure::differentiate(const Posture& /*posture*/, const WrenchProgram& /*p
 void Measure::evaluate_if(bool well_formed, const Posture& posture, const WrenchProgram& program,
                           bool efforts, Capability& capability) {
   if (!well_formed || !solves_program()) capability.clear();
+  capability.beta_q.setZero();  // a program has none, whatever was in the capability before
   if (!well_formed) {
     capability.conclude(Status::kNumericalError, kMalformed);
     return;

@@ -42,11 +42,11 @@ void require_seeds(Eigen::Index n, const Eigen::VectorXd& tau_seed, const Matrix
                               " columns by J, expected " + std::to_string(n) + " of both");
 }
 
-/// The same for those by J_2 and C_2, which a measure that does not depend on them leaves empty.
-void require_columns(const char* by, const Matrix6Xd& seed, Eigen::Index columns) {
-  if (seed.cols() == 0 || seed.cols() == columns) return;
-  throw std::invalid_argument("derivatives: got " + std::to_string(seed.cols()) + " columns by " +
-                              by + ", expected " + std::to_string(columns) + ", or none");
+/// The same for those by q, J_2 and C_2, which a measure that does not depend on them leaves empty.
+void require_columns(const char* by, Eigen::Index got, Eigen::Index columns) {
+  if (got == 0 || got == columns) return;
+  throw std::invalid_argument("derivatives: got " + std::to_string(got) + " columns by " + by +
+                              ", expected " + std::to_string(columns) + ", or none");
 }
 
 /// A posture at one theta_r: the indices of the IK solutions for the dependent coordinates and for
@@ -247,12 +247,13 @@ struct PostureEvaluator::Workspace {
   }
 
   void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
-                 const Matrix6Xd& J_seed, const Matrix6Xd& J2_seed, const Matrix6Xd& C2_seed,
-                 const Capability* decided, Eigen::VectorXd& gradient) {
+                 const Matrix6Xd& J_seed, const Eigen::VectorXd& q_seed, const Matrix6Xd& J2_seed,
+                 const Matrix6Xd& C2_seed, const Capability* decided, Eigen::VectorXd& gradient) {
     require_seeds(model.J.cols(), tau_seed, J_seed);
+    require_columns("q", q_seed.size(), model.q.size());
     if (second) {
-      require_columns("J_2", J2_seed, model.J.cols());
-      require_columns("C_2", C2_seed, problem.contact_columns());
+      require_columns("J_2", J2_seed.cols(), model.J.cols());
+      require_columns("C_2", C2_seed.cols(), problem.contact_columns());
     }
     if (model.theta_r != theta_r) {
       if (second || primary) {
@@ -271,6 +272,7 @@ struct PostureEvaluator::Workspace {
       slopes->unload(model);
       by_turn = slopes->add(model, *decided, q_gradient);
     }
+    if (q_seed.size() > 0) q_gradient += q_seed;
     const std::vector<Joint>& joints = problem.robot.joints;
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const std::optional<Gear>& gear = joints[i].gear;
@@ -323,6 +325,7 @@ struct PostureEvaluator::Workspace {
   Fault fault;               ///< set if no posture is valid
   IkSolution shown, placed;  ///< where the fault is; where the model is
   const Matrix6Xd none;      ///< no seeds
+  const Eigen::VectorXd none_by_q;
   Posture posture;
 };
 
@@ -352,15 +355,17 @@ const Posture& PostureEvaluator::select(int ik_solution) {
 void PostureEvaluator::pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) {
   require_theta_r(workspace_->problem, theta_r);
-  const Matrix6Xd& none = workspace_->none;
-  workspace_->pull_back(theta_r, tau_seed, J_seed, none, none, nullptr, gradient);
+  const Workspace& ws = *workspace_;
+  workspace_->pull_back(theta_r, tau_seed, J_seed, ws.none_by_q, ws.none, ws.none, nullptr,
+                        gradient);
 }
 
 void PostureEvaluator::pull_back(const Eigen::VectorXd& theta_r, const Capability& capability,
                                  Eigen::VectorXd& gradient) {
   require_theta_r(workspace_->problem, theta_r);
-  workspace_->pull_back(theta_r, capability.lambda, capability.beta_J, capability.beta_J2,
-                        capability.beta_C2, workspace_->slopes ? &capability : nullptr, gradient);
+  workspace_->pull_back(theta_r, capability.lambda, capability.beta_J, capability.beta_q,
+                        capability.beta_J2, capability.beta_C2,
+                        workspace_->slopes ? &capability : nullptr, gradient);
 }
 
 }  // namespace maxwrench

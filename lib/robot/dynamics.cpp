@@ -11,6 +11,7 @@ Dynamics::Dynamics(const Robot& robot)
       twists_(robot.links.size()),
       twist_rates_(robot.links.size()),
       forces_(robot.links.size()),
+      momenta_(robot.links.size()),
       carried_(robot.links.size()),
       zero_(Eigen::VectorXd::Zero(robot.velocities())),
       load_(robot.velocities()),
@@ -66,6 +67,23 @@ void Dynamics::mass_matrix(Eigen::MatrixXd& M) {
       const int row = base + link - 1;
       M(row, base + i) = M(base + i, row) = along(axes_[link - 1], p);
     }
+  }
+}
+
+/// x'M y is the sum of V'I W over all links, with the twists V of x and W of y. In the axes of the
+/// links that joint k carries, a turn of k leaves them at rest and turns their surroundings by
+/// -s_k: it adds V_p x s_k to V and W_p x s_k to W, with p the parent. What they carry has the
+/// momenta P and Q, so the slope is (V_p x s_k)'Q + (W_p x s_k)'P.
+void Dynamics::mass_slopes(const Eigen::VectorXd& x, const Eigen::VectorXd& y,
+                           Eigen::VectorXd& slopes) {
+  set_momenta(x, twists_, momenta_);
+  set_momenta(y, twist_rates_, forces_);
+  slopes.resize(static_cast<Eigen::Index>(axes_.size()));
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    const auto parent = static_cast<std::size_t>(robot_->joints[k].parent);
+    slopes[static_cast<Eigen::Index>(k)] =
+        along(crossed(twists_[parent], axes_[k]), forces_[k + 1]) +
+        along(crossed(twist_rates_[parent], axes_[k]), momenta_[k + 1]);
   }
 }
 
@@ -131,15 +149,32 @@ auto Dynamics::base_twist(const Eigen::VectorXd& velocity) const -> Screw {
 }
 
 void Dynamics::set_twists(const Eigen::VectorXd& velocity) {
-  const auto base = static_cast<Eigen::Index>(robot_->base_axes.size());
   twists_[0] = base_twist(velocity);
   if (in_current_) twists_[0].linear -= current_;
+  spread(velocity, twists_);
+}
+
+/// Fills the twists of all links from that of the base.
+void Dynamics::spread(const Eigen::VectorXd& velocity, std::vector<Screw>& twists) const {
+  const auto base = static_cast<Eigen::Index>(robot_->base_axes.size());
   for (std::size_t i = 0; i < axes_.size(); ++i) {
-    const Screw& parent = twists_[robot_->joints[i].parent];
+    const Screw& parent = twists[robot_->joints[i].parent];
     const double& rate = velocity[base + static_cast<Eigen::Index>(i)];
-    twists_[i + 1] = {parent.linear + axes_[i].linear * rate,
-                      parent.angular + axes_[i].angular * rate};
+    twists[i + 1] = {parent.linear + axes_[i].linear * rate,
+                     parent.angular + axes_[i].angular * rate};
   }
+}
+
+/// The twists of all links in the world, and the momenta of each link with all that it carries.
+void Dynamics::set_momenta(const Eigen::VectorXd& velocity, std::vector<Screw>& twists,
+                           std::vector<Screw>& momenta) const {
+  twists[0] = base_twist(velocity);
+  spread(velocity, twists);
+  for (int i = 0; i < static_cast<int>(inertia_.size()); ++i) {
+    const Pose<double>& frame = kinematics_.links()[i];
+    momenta[i] = in_base_axes(frame, momentum(inertia_[i], into(frame, twists[i])));
+  }
+  gather(momenta);
 }
 
 /// The rates are in fixed axes that coincide with the base's, in which a joint's axis moves with
@@ -154,11 +189,10 @@ void Dynamics::set_twist_rates(const Eigen::VectorXd& velocity,
     const Screw& carrier = twists_[robot_->joints[i].parent];
     const Screw& parent = twist_rates_[robot_->joints[i].parent];
     const Screw& axis = axes_[i];
-    const Eigen::Vector3d turned = carrier.angular.cross(axis.angular);
-    const Eigen::Vector3d swept =
-        carrier.angular.cross(axis.linear) + carrier.linear.cross(axis.angular);
-    twist_rates_[i + 1] = {parent.linear + axis.linear * acceleration[k] + swept * velocity[k],
-                           parent.angular + axis.angular * acceleration[k] + turned * velocity[k]};
+    const Screw swept = crossed(carrier, axis);
+    twist_rates_[i + 1] = {
+        parent.linear + axis.linear * acceleration[k] + swept.linear * velocity[k],
+        parent.angular + axis.angular * acceleration[k] + swept.angular * velocity[k]};
   }
 }
 
@@ -166,11 +200,17 @@ void Dynamics::clear_forces() {
   for (Screw& force : forces_) force = Screw();
 }
 
+/// A wrench or momentum that is given at `frame`'s origin in its axes, at the base origin.
+auto Dynamics::in_base_axes(const Pose<double>& frame, const Screw& wrench) -> Screw {
+  const Eigen::Vector3d force = frame.R * wrench.linear;
+  return {force, frame.R * wrench.angular + frame.p.cross(force)};
+}
+
 /// Adds a wrench that is given at `frame`'s origin in its axes.
 void Dynamics::add_force(int link, const Pose<double>& frame, const Screw& wrench) {
-  const Eigen::Vector3d force = frame.R * wrench.linear;
-  forces_[link].linear += force;
-  forces_[link].angular += frame.R * wrench.angular + frame.p.cross(force);
+  const Screw force = in_base_axes(frame, wrench);
+  forces_[link].linear += force.linear;
+  forces_[link].angular += force.angular;
 }
 
 /// The rate of each link's momentum, in the link's own axes, where its inertia is constant. For
@@ -202,14 +242,19 @@ void Dynamics::add_drag() {
   }
 }
 
+/// Adds to each link's force those of all links that it carries.
+void Dynamics::gather(std::vector<Screw>& forces) const {
+  for (std::size_t i = axes_.size(); i > 0; --i) {
+    Screw& parent = forces[robot_->joints[i - 1].parent];
+    parent.linear += forces[i].linear;
+    parent.angular += forces[i].angular;
+  }
+}
+
 /// Each force loads all joints between it and the base. Overwrites the forces.
 void Dynamics::project_forces(Eigen::VectorXd& tau) {
   tau.resize(robot_->velocities());
-  for (std::size_t i = axes_.size(); i > 0; --i) {
-    Screw& parent = forces_[robot_->joints[i - 1].parent];
-    parent.linear += forces_[i].linear;
-    parent.angular += forces_[i].angular;
-  }
+  gather(forces_);
   Eigen::Index row = 0;
   for (const int axis : robot_->base_axes) tau[row++] = component(forces_[0], axis);
   for (std::size_t i = 0; i < axes_.size(); ++i) tau[row++] = along(axes_[i], forces_[i + 1]);

@@ -38,6 +38,8 @@ class Dynamics {
 
   /// M n×n [kg, kg m, kg m^2], symmetric, with added mass.
   void mass_matrix(Eigen::MatrixXd& M);
+  /// The derivatives of x'M y by the joint positions, for constant velocities x and y (n).
+  void mass_slopes(const Eigen::VectorXd& x, const Eigen::VectorXd& y, Eigen::VectorXd& slopes);
   /// C(theta, v) v, with the terms of added mass.
   void coriolis(const Eigen::VectorXd& velocity, Eigen::VectorXd& C_v);
   /// D(theta, v) v: the drag that the actuators overcome. It has a first derivative at v = 0 but no
@@ -66,7 +68,12 @@ class Dynamics {
   using Screw = maxwrench::Screw<double>;
 
   static Screw base_unit(int axis);
+  static Screw in_base_axes(const Pose<double>& frame, const Screw& wrench);
   Screw base_twist(const Eigen::VectorXd& velocity) const;
+  void spread(const Eigen::VectorXd& velocity, std::vector<Screw>& twists) const;
+  void set_momenta(const Eigen::VectorXd& velocity, std::vector<Screw>& twists,
+                   std::vector<Screw>& momenta) const;
+  void gather(std::vector<Screw>& forces) const;
   void set_twists(const Eigen::VectorXd& velocity);
   void set_twist_rates(const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration);
   void clear_forces();
@@ -84,6 +91,7 @@ class Dynamics {
   std::vector<Screw> axes_;  ///< of each joint: the twist of its link per joint rate
   std::vector<Screw> twists_, twist_rates_;
   std::vector<Screw> forces_;  ///< on each link; after projection also on all links that it carries
+  std::vector<Screw> momenta_;
   std::vector<Inertia<double>> carried_;
   Eigen::VectorXd zero_, load_, tau_;
   Eigen::MatrixXd M_;

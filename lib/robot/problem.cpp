@@ -21,6 +21,12 @@ const char* Problem::unit() const {
   return "mixed";
 }
 
+const char* Problem::acceleration_unit() const {
+  if (c.tail<3>().isZero()) return "m/s^2";
+  if (c.head<3>().isZero()) return "rad/s^2";
+  return "mixed";
+}
+
 const char* Problem::type() const {
   if (!motion) return "static";
   if (motion->transfer) return "transfer";

@@ -58,6 +58,12 @@ Screw<T> momentum(const Inertia<S>& inertia, const Screw<T>& twist) {
           inertia.B.transpose() * twist.linear + inertia.C * twist.angular};
 }
 
+/// V x S: the rate of a twist S that moves with the twist V.
+template <class T>
+Screw<T> crossed(const Screw<T>& V, const Screw<T>& S) {
+  return {V.angular.cross(S.linear) + V.linear.cross(S.angular), V.angular.cross(S.angular)};
+}
+
 /// Power of a wrench along a twist.
 template <class T>
 T along(const Screw<T>& twist, const Screw<T>& wrench) {

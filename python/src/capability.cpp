@@ -173,6 +173,9 @@ Capabilities capability_of(const py::object& J_given, const py::object& tau_give
   if (!free.is_none() && !find_measure(measure).supports_any) {
     throw BadValue("free", "other wrenches", "None for measure " + measure);
   }
+  if (find_measure(measure).acceleration) {
+    throw BadValue("measure", shown(measure), "one of J and tau_d alone: this one needs masses");
+  }
   const Method method = resolve(task, choice);
   const int wanted = thread_count(threads);
   result = Capabilities(result.shape, actuation->actuators(), n);

@@ -270,3 +270,13 @@ def test_manipulability_is_that_of_all_rows():
     for c in ("x", "rz"):
         mine = mw.capability(J, np.zeros(7), -np.ones(7), np.ones(7), c, measure="manipulability")
         assert mine.beta == pytest.approx(np.linalg.det(J @ J.T) ** 0.5, rel=1e-10)
+
+
+@pytest.mark.parametrize("measure", ["dynamic_manipulability", "dynamic_capability"])
+def test_accelerations_need_masses(measure):
+    with pytest.raises(mw.InputError, match=f"measure: got '{measure}', expected one of J and tau_d alone"):
+        mw.capability(np.eye(6), np.zeros(6), -np.ones(6), np.ones(6), "x", measure=measure)
+    answer = mw.evaluate("uvms/valve", [3, 1.2, 1.1, 0.4], measure=measure)
+    assert answer.unit == "rad/s^2" and answer.h is None and answer.u.shape == answer.task.robot.u_max.shape
+    # As beta is no wrench, the efforts are those of the acceleration, not B u = tau_d.
+    assert np.abs(answer.task.robot.B @ answer.u - answer.tau_d).max() > 0.1

@@ -58,7 +58,7 @@ def test_instants_of_a_task_in_time():
     assert what.missing["u"] == "the task is in time"
 
 
-@pytest.mark.parametrize("measure", ["manipulability", "saturating_wrench"])
+@pytest.mark.parametrize("measure", ["manipulability", "saturating_wrench", "dynamic_capability"])
 def test_measures_without_limits(measure):
     what = mw.evaluate(LIFT, LIFT.theta_r_default, measure=measure).explain()
     assert what.limits == [] and measure in what.missing["limits"]

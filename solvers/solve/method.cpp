@@ -8,6 +8,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "lib/measure/task_dynamics.h"
 #include "lib/robot/gears.h"
 #include "lib/search/facet_program.h"
 #include "maxwrench/batch.h"
@@ -83,6 +84,11 @@ bool limited(const Contact& contact) {
   const auto counts = [](double limit) { return limit != 0 && std::isfinite(limit); };
   return std::any_of(contact.w_min.begin(), contact.w_min.end(), counts) ||
          std::any_of(contact.w_max.begin(), contact.w_max.end(), counts);
+}
+
+const char* unit_of(const MeasureEntry& measure, const Problem& problem) {
+  if (measure.acceleration) return problem.acceleration_unit();
+  return measure.unit ? measure.unit : problem.unit();
 }
 
 /// Closed forms handle free columns only, so they do not support a contact with limits.
@@ -193,7 +199,7 @@ LowerLevel resolve_lower_level(const Problem& problem, const Case& c) {
                                 ", expected one with a solver: a closed form supports only zero "
                                 "and infinity as limits of contact.basis");
   }
-  return {&measure, name_of(solver), measure.unit ? measure.unit : problem.unit(),
+  return {&measure, name_of(solver), unit_of(measure, problem),
           measure_maker(problem, measure, solver, c.wrench)};
 }
 
@@ -217,6 +223,7 @@ std::vector<std::string> supported_solvers(const Problem& problem, const std::st
     return names;
   }
   if (!supports_limits(entry, problem)) return names;
+  if (entry.acceleration && !why_no_acceleration(problem).empty()) return names;
   for (const WrenchSolverEntry* solver : solvers_for(entry, problem, wrench)) {
     names.emplace_back(name_of(solver));
   }

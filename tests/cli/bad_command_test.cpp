@@ -36,6 +36,8 @@ INSTANTIATE_TEST_SUITE_P(
         BadWords{"eval planar/force --measure ellipsoid --solver simplex", "simplex"},
         BadWords{"eval planar/force --measure saturating_wrench --wrench any", "any"},
         BadWords{"eval planar/force --measure manipulability --solver facets", "facets"},
+        BadWords{"eval planar/force --measure dynamic_capability --wrench any", "any"},
+        BadWords{"solve planar/two_arms --measure dynamic_manipulability", "second contact"},
         BadWords{"eval dual_arm/bar_wall --solver facets", "second contact"},
         BadWords{"solve dual_arm/two_arms --solver facets", "second contact"},
         BadWords{"compare planar/two_arms --solver facets", "second contact"},

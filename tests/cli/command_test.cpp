@@ -269,7 +269,8 @@ TEST(Command, EveryMeasureHasAValueAtAnOrdinaryPosture) {
     const json object = json::parse(result.out);
     EXPECT_EQ(object["status"], "optimal") << measure.name;
     EXPECT_EQ(object["gradient"].size(), 4U);
-    EXPECT_EQ(object["unit"], measure.unit ? measure.unit : "N m");
+    const char* const of_torque = measure.acceleration ? "rad/s^2" : "N m";
+    EXPECT_EQ(object["unit"], measure.unit ? measure.unit : of_torque);
     EXPECT_EQ(object["beta_linf_unit"], "N m");
     EXPECT_GT(object["beta_linf"], 0);
   }

@@ -7,6 +7,7 @@ from figures.style import BLUE, GREEN, GREY, ORANGE, TASK, landscape, save, two_
 
 THETA_R = np.array([0.3, -0.7])
 PLANE = np.eye(6)[:, :2]  # forces along c and across it
+ACCELERATIONS = ("dynamic_manipulability", "dynamic_capability")
 
 
 class Maps:
@@ -64,6 +65,27 @@ def draw_set(axes, measure):
     axes.plot(0, 0, "k+", ms=6)
 
 
+def reaches(measure, turns):
+    """The value with c at these angles [rad] from its own direction in the plane."""
+    tasks = [mw.Static(TASK.robot, pose=TASK.pose, c=[np.cos(turn), np.sin(turn), 0, 0, 0, 0], any=["fx", "fy", "tz"], theta_r=TASK.theta_r_names)
+             for turn in turns]
+    return np.array([mw.evaluate(task, THETA_R, measure=measure).beta for task in tasks])
+
+
+def draw_accelerations(axes, measure):
+    """Both sets: the ellipsoid of accelerations, and the circle of those that are possible in every direction."""
+    turns = np.linspace(0, 2 * np.pi, 73)
+    for name in ACCELERATIONS:
+        own, values = name == measure, reaches(name, turns)
+        axes.plot(values * np.cos(turns), values * np.sin(turns), color=BLUE if own else GREY, ls="-" if own else "--")
+        assert name != "dynamic_capability" or np.ptp(values) < 1e-9 * values[0], f"{name}: its value depends on the direction"
+    value = reaches(measure, [0])[0]
+    axes.annotate("", (value, 0), (0, 0), arrowprops={"arrowstyle": "->", "color": ORANGE, "lw": 2})
+    axes.text(value, 0, f" {value:.2f}", color=ORANGE, va="top")
+    axes.plot(0, 0, "k+", ms=6)
+    axes.set(xlabel="acceleration along c [m/s²]", ylabel="acceleration across c [m/s²]", aspect="equal")
+
+
 def mark(axes, maps, measure, hull):
     """The value as a length, where it is one."""
     if measure in ("least_effort", "manipulability", "ellipsoid_trace"):
@@ -80,9 +102,14 @@ def mark(axes, maps, measure, hull):
 
 def draw(measure, path):
     figure, (left, right) = two_panels()
-    draw_set(left, measure)
-    names = {"least_effort": "sums of squared efforts", "manipulability": "velocities, not forces"}
-    left.set_title("blue: " + names.get(measure, "its set of forces") + "; grey: any efforts", fontsize=9)
+    if measure in ACCELERATIONS:
+        draw_accelerations(left, measure)
+        other = "all directions alike" if measure == ACCELERATIONS[0] else "the ellipsoid of efforts"
+        left.set_title(f"blue: its set of accelerations; grey: {other}", fontsize=9)
+    else:
+        draw_set(left, measure)
+        names = {"least_effort": "sums of squared efforts", "manipulability": "velocities, not forces"}
+        left.set_title("blue: " + names.get(measure, "its set of forces") + "; grey: any efforts", fontsize=9)
     best, _ = landscape(right, measure)
     right.plot(*best, "*", ms=11, mfc="white", mec="black", clip_on=False, zorder=5)
     right.plot(*THETA_R, "o", ms=5, mfc=ORANGE, mec="black")

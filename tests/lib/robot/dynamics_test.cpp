@@ -87,6 +87,28 @@ TEST(Dynamics, MassMatrixIsTheHessianOfTheKineticEnergyAndPositiveDefinite) {
   }
 }
 
+TEST(Dynamics, MassSlopesAreThoseOfTheMassMatrix) {
+  Random random(14);
+  const double h = 1e-5;
+  for (int i = 0; i < 20; ++i) {
+    Sample s(random);
+    const VectorXd x = random_numbers(random, s.n), y = random_numbers(random, s.n);
+    VectorXd slopes;
+    s.dynamics.mass_slopes(x, y, slopes);
+    ASSERT_EQ(slopes.size(), s.q.size());
+    for (Eigen::Index k = 0; k < s.q.size(); ++k) {
+      const auto product = [&](double step) {
+        MatrixXd M;
+        s.dynamics.set_configuration(s.R_base, s.q + step * VectorXd::Unit(s.q.size(), k));
+        s.dynamics.mass_matrix(M);
+        return x.dot(M * y);
+      };
+      const double difference = (product(h) - product(-h)) / (2 * h);
+      EXPECT_NEAR(slopes[k], difference, 1e-7 * (1 + slopes.norm()));
+    }
+  }
+}
+
 /// Hamel's equations, from the kinetic energy alone: with the momenta p = dT/dv, of the base (P, L)
 /// at its twist (V, W), the inertial part of tau_d is
 ///   P_d + W x P,   L_d + W x L + V x P,   p_d - dT/dq.
