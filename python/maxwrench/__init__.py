@@ -73,6 +73,10 @@ Explanation._repr_html_ = _html.explanation_html
 Robot._repr_html_ = _html.robot_html
 Task._repr_html_ = _html.task_html
 Evaluations._repr_html_ = _html.evaluations_html
+for _kind in list(vars(_core).values()):
+    _plain = isinstance(_kind, type) and not issubclass(_kind, Exception) and not hasattr(_kind, "_repr_html_")
+    if _plain and any(isinstance(_attribute, property) for _attribute in vars(_kind).values()):
+        _kind._repr_html_ = _html.attributes_html
 
 __all__ = [
     "Answer",

@@ -176,6 +176,33 @@ def capability_html(result):
     return _table("Capability", rows)
 
 
+def attributes_html(thing):
+    """Returns any other object as an HTML table of its attributes.
+
+    >>> "rpy" in maxwrench.Pose([1, 2, 3])._repr_html_()
+    True
+    """
+    kind = type(thing)
+    names = [name for name in dir(kind) if isinstance(getattr(kind, name), property)]
+    return _table(kind.__name__, [(name, _brief(getattr(thing, name))) for name in names])
+
+
+def _brief(value):
+    """A value of an attribute in one line."""
+    if isinstance(value, np.ndarray):
+        if value.dtype.kind != "f" or value.ndim != 1:
+            return f"array of shape {value.shape}" if value.ndim else str(value)
+        return _shortened_numbers(value)
+    if isinstance(value, float):
+        return _number(value)
+    if isinstance(value, dict):
+        return ", ".join(f"{name} {_brief(item)}" for name, item in value.items())
+    if isinstance(value, (list, tuple)):
+        shown = ", ".join(_brief(item) for item in value[:12])
+        return shown if len(value) <= 12 else f"{shown}, ... ({len(value)})"
+    return "none" if value is None else str(value)
+
+
 def _verdict(result):
     """The rows of a status, with its reason if there is one."""
     return [("status", result.status)] + ([("reason", result.reason)] if result.reason else [])

@@ -10,14 +10,16 @@ BLACK, ORANGE, SKY, GREEN, BLUE, VERMILION, PURPLE = (
     "#000000", "#E69F00", "#56B4E9", "#009E73", "#0072B2", "#D55E00", "#CC79A7")  # fmt: skip
 CURVES = (BLUE, ORANGE, GREEN, VERMILION, PURPLE, SKY, BLACK)
 STYLES = ("-", "--", ":")
+WRENCH = (VERMILION, BLUE)  # force and torque
+SETS = {"force": GREEN, "torque": PURPLE}
 
 
 def plot_answer(answer, ax=None):
     """Draws an answer with Matplotlib.
 
     A static answer is a robot in three dimensions: its bodies, its skeleton from joint to joint, and
-    the force and the torque that it exerts, or their direction if there is no value. An answer in
-    time is three panels over time: beta, theta_r, and the efforts as shares of their limits.
+    the force and the torque that it exerts within the sets of all that it can exert, or their
+    direction if there is no value. An answer in time is three panels over time: beta, theta_r, and the efforts as shares of their limits.
 
     Args:
         answer: an Answer with a posture.
@@ -88,36 +90,30 @@ def _draw_hull(ax, points, colour, alpha):
 
 
 def _draw_wrench(ax, answer, p, length):
-    """Force and torque as arrows of that length, with the force polytope if there is one.
+    """Force and torque as arrows of that length, each with the set of those that are possible.
 
     Returns what was drawn, as points.
     """
     known = answer.h is not None
     wrench = answer.h if known else answer.task.c
-    force, torque = np.split(np.asarray(wrench), 2)
     drawn = []
-    scale = length / np.linalg.norm(force) if np.linalg.norm(force) > 0 else 0
-    shape = _core.polytope(answer) if known and scale > 0 else None
-    if shape is not None and shape.status == "optimal" and shape.triangles.size:
-        scale = 1.5 * length / np.linalg.norm(shape.vertices, axis=1).max()
-        corners = p + scale * shape.vertices
-        _draw_faces(ax, corners[shape.triangles], GREEN, 0.1)
-        drawn.append(corners)
-    for part, colour, name, unit, at_scale in (
-        (force, VERMILION, "force", "N", scale),
-        (torque, BLUE, "torque", "N m", 0),
-    ):
+    for kind, part, colour, unit in zip(("force", "torque"), np.split(np.asarray(wrench), 2), WRENCH, ("N", "N m")):
         size = np.linalg.norm(part)
         if size < 1e-9 * np.linalg.norm(wrench):
             continue
-        arrow = part * (at_scale or length / size)
-        label = f"{name} {size:.4g} {unit}" if known else f"direction of the {name}"
-        _draw_arrow(ax, p, arrow, 0.06 * length, colour, label)
-        drawn.append(np.stack([p, p + arrow]))
-        if name == "torque":
-            drawn.append(_draw_turn(ax, p + 0.5 * arrow, part / size, 0.3 * length, colour))
-    if shape is not None and shape.status == "optimal" and shape.triangles.size:
-        ax.plot([], [], color=GREEN, alpha=0.4, linewidth=8, label="all forces that it can exert")
+        scale = length / size
+        shape = _core.polytope(answer, directions=kind) if known else None
+        if shape is not None and shape.status == "optimal" and shape.triangles.size:
+            scale = 1.5 * length / np.linalg.norm(shape.vertices, axis=1).max()
+            corners = p + scale * shape.vertices
+            _draw_faces(ax, corners[shape.triangles], SETS[kind], 0.1)
+            ax.plot([], [], color=SETS[kind], alpha=0.4, linewidth=8, label=f"all {kind}s that it can exert")
+            drawn.append(corners)
+        label = f"{kind} {size:.4g} {unit}" if known else f"direction of the {kind}"
+        _draw_arrow(ax, p, scale * part, 0.06 * length, colour, label)
+        drawn.append(np.stack([p, p + scale * part]))
+        if kind == "torque":
+            drawn.append(_draw_turn(ax, p + 0.5 * scale * part, part / size, 0.3 * length, colour))
     return drawn
 
 

@@ -1,5 +1,7 @@
 """Races of searches on tasks, with equal budgets and seeds."""
 
+import itertools
+
 import numpy as np
 
 from . import _core
@@ -19,6 +21,7 @@ def race(tasks, searches, *, seeds=5, budget=2000, measure="linf_polytope", wren
         dict: arrays with one entry for each run: task, search, seed, beta, gap, evaluations,
         seconds, status. gap is how far beta is below the best of all runs of the task, as a
         share of that; NaN without a value. ``pandas.DataFrame(...)`` makes a table of it.
+        Ctrl-C ends the race: the runs that were complete are returned.
 
     Raises:
         InputError: as ``solve``.
@@ -29,16 +32,17 @@ def race(tasks, searches, *, seeds=5, budget=2000, measure="linf_polytope", wren
     """
     columns = {name: [] for name in ("task", "search", "seed", "beta", "evaluations", "seconds", "status")}
     searches = [searches] if isinstance(searches, str) else searches
-    for task in [tasks] if isinstance(tasks, (str, _core.Task)) else tasks:
-        task = task if isinstance(task, _core.Task) else _core.load(task)
-        for search in searches:
-            for seed in range(1, seeds + 1):
-                answer = _core.solve(
-                    task, measure=measure, wrench=wrench, search=search, seed=seed, budget=budget, threads=threads
-                )
-                run = (task.name, search, seed, answer.beta, answer.evaluations, answer.seconds, answer.status)
-                for column, value in zip(columns.values(), run):
-                    column.append(value)
+    tasks = [tasks] if isinstance(tasks, (str, _core.Task)) else tasks
+    loaded = [task if isinstance(task, _core.Task) else _core.load(task) for task in tasks]
+    for task, search, seed in itertools.product(loaded, searches, range(1, seeds + 1)):
+        answer = _core.solve(
+            task, measure=measure, wrench=wrench, search=search, seed=seed, budget=budget, threads=threads
+        )
+        if answer.stopped == "interrupted":
+            break
+        run = (task.name, search, seed, answer.beta, answer.evaluations, answer.seconds, answer.status)
+        for column, value in zip(columns.values(), run):
+            column.append(value)
     runs = {name: np.array(column) for name, column in columns.items()}
     runs["gap"] = np.full(len(runs["beta"]), np.nan)
     for name in dict.fromkeys(columns["task"]):

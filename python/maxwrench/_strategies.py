@@ -33,7 +33,7 @@ class Measure:
 
     def value(self, posture):
         """Returns the value at a Posture; NaN where there is none."""
-        raise NotImplementedError
+        raise NotImplementedError(f"{type(self).__name__}: got a Measure without a method value(posture)")
 
 
 class Search:
@@ -59,7 +59,7 @@ class Search:
 
     def maximize(self, objective):
         """Evaluates an Objective as it likes; the best point counts. What it returns does not."""
-        raise NotImplementedError
+        raise NotImplementedError(f"{type(self).__name__}: got a Search without a method maximize(objective)")
 
 
 def _object(strategy, key, method):

@@ -264,6 +264,19 @@ def test_other_measures():
     assert value("saturating_wrench") == pytest.approx(value("linf_polytope"), rel=1e-10)
 
 
+def test_measures_of_more_actuators_than_joints():
+    rng = np.random.default_rng(3)
+    J, B = rng.normal(size=(6, 10)), rng.normal(size=(10, 12))
+    limits = np.full(12, 5.0)
+    values = {
+        measure: mw.capability(J, np.zeros(10), -limits, limits, "z", B, measure=measure).beta
+        for measure in ("linf_polytope", "l2_polytope", "saturating_wrench", "ellipsoid")
+    }
+    # At equal limits and without a load, the actuator that saturates first limits the least-squares efforts.
+    assert values["saturating_wrench"] == pytest.approx(values["l2_polytope"], rel=1e-9)
+    assert 0 < values["ellipsoid"] <= values["l2_polytope"] <= values["linf_polytope"]
+
+
 def test_manipulability_is_that_of_all_rows():
     # measures() says: Yoshikawa's sqrt det(J J'). It does not depend on c or the limits.
     J = np.random.default_rng(11).normal(size=(6, 7))

@@ -4,6 +4,7 @@ import functools
 import json
 import multiprocessing
 import pickle
+import xml.etree.ElementTree as xml
 
 import maxwrench as mw
 import numpy as np
@@ -168,6 +169,7 @@ def test_all_results_are_pickled_and_are_data(tmp_path):
         table = result.to_dict()
         assert table and loaded.to_dict() == table, name
         json.dumps(table, allow_nan=False)
+        assert len(list(xml.fromstring(result._repr_html_()).iter("tr"))) > 1, name
 
 
 def test_pictures_and_files_of_pickled_results(tmp_path):

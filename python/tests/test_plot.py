@@ -65,7 +65,7 @@ def test_the_polytope_and_the_force_have_one_scale(monkeypatch):
     half = 2 * np.linalg.norm(answer.h)
     square = half * np.array([[1, 0, -1, 0], [0, 1, 0, -1], [0, 0, 0, 0]])
     shape = SimpleNamespace(status="optimal", vertices=square.T, triangles=np.array([[0, 1, 2], [0, 2, 3]]))
-    monkeypatch.setattr(mw._core, "polytope", lambda of: shape, raising=False)
+    monkeypatch.setattr(mw._core, "polytope", lambda of, directions: shape, raising=False)
     drawn = []
     monkeypatch.setattr(mw._plot, "_draw_faces", lambda ax, faces, colour, alpha: drawn.append((np.array(faces), alpha)))
     answer.plot()
@@ -73,6 +73,16 @@ def test_the_polytope_and_the_force_have_one_scale(monkeypatch):
     corner = max(np.linalg.norm(faces - p, axis=-1).max() for faces, alpha in drawn if alpha == 0.1)
     tip = max(np.linalg.norm(faces - p, axis=-1).max() for faces, alpha in drawn if alpha == 1)
     assert corner == pytest.approx(2 * tip)
+
+
+def test_torques_have_their_set():
+    """The corners of the set of torques, at the tool, with the torque within it: the set reaches as far along c as beta."""
+    answer = mw.solve("uvms/valve", budget=300)
+    shape = mw.polytope(answer, directions="torque")
+    along = shape.vertices @ answer.task.c[3:]
+    assert along.max() >= answer.beta - 1e-9
+    ax = answer.plot()
+    assert "all torques that it can exert" in [text.get_text() for text in ax.get_legend().get_texts()]
 
 
 def test_curves(tmp_path):

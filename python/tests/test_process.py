@@ -68,6 +68,13 @@ def test_ctrl_c_returns_the_best_so_far(task, search):
     assert again.beta == pytest.approx(answer.beta, rel=1e-9)
 
 
+def test_ctrl_c_ends_a_race():
+    interrupt = Interrupt(0.5)
+    runs = mw.race("uvms/valve", ["cmaes", "sample"], seeds=50, budget=20_000)
+    assert time.perf_counter() - interrupt.time < AT_ONCE
+    assert 0 < len(runs["beta"]) < 100 and set(runs["status"]) == {"best_found"}
+
+
 def test_ctrl_c_ends_rows_that_remain():
     task = mw.load("fixed/push")
     theta_r = np.linspace(-1, 1, 60_000)[:, None]  # several seconds for one thread

@@ -260,8 +260,9 @@ TEST(Solve, EveryMeasureIsReadBesideTheSameYardstick) {
     ASSERT_TRUE(row.has_value()) << c.measure << ": " << row.reason.c_str();
     EXPECT_EQ(row.beta_linf, evaluate(problem, theta_r, {common}).capability.beta);
     EXPECT_EQ(values(row).size(), value_columns().size());
-    const bool wrench = find_measure(c.measure).unit == nullptr;
-    EXPECT_EQ(row.unit, wrench ? "N m" : find_measure(c.measure).unit);
+    const MeasureEntry& measure = find_measure(c.measure);
+    const char* const own = measure.acceleration ? "rad/s^2" : "N m";
+    EXPECT_EQ(row.unit, measure.unit ? measure.unit : own);
   }
   // A posture that does not exist has none.
   const Answer none = evaluate(problem, Eigen::Vector4d(9, 9, 9, 9), {{problem.name}});
