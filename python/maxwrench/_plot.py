@@ -96,24 +96,26 @@ def _draw_wrench(ax, answer, p, length):
     """
     known = answer.h is not None
     wrench = answer.h if known else answer.task.c
-    drawn = []
+    drawn, sets = [], []
     for kind, part, colour, unit in zip(("force", "torque"), np.split(np.asarray(wrench), 2), WRENCH, ("N", "N m")):
         size = np.linalg.norm(part)
         if size < 1e-9 * np.linalg.norm(wrench):
             continue
         scale = length / size
-        shape = _core.polytope(answer, directions=kind) if known else None
+        shape = _core.polytope(answer, directions=kind, wrench=answer.wrench) if known else None
         if shape is not None and shape.status == "optimal" and shape.triangles.size:
             scale = 1.5 * length / np.linalg.norm(shape.vertices, axis=1).max()
             corners = p + scale * shape.vertices
             _draw_faces(ax, corners[shape.triangles], SETS[kind], 0.1)
-            ax.plot([], [], color=SETS[kind], alpha=0.4, linewidth=8, label=f"all {kind}s that it can exert")
+            sets.append(kind)
             drawn.append(corners)
         label = f"{kind} {size:.4g} {unit}" if known else f"direction of the {kind}"
         _draw_arrow(ax, p, scale * part, 0.06 * length, colour, label)
         drawn.append(np.stack([p, p + scale * part]))
         if kind == "torque":
             drawn.append(_draw_turn(ax, p + 0.5 * scale * part, part / size, 0.3 * length, colour))
+    for kind in sets:
+        ax.plot([], [], color=SETS[kind], alpha=0.4, linewidth=8, label=f"all {kind}s that it can exert")
     return drawn
 
 

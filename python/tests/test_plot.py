@@ -65,7 +65,7 @@ def test_the_polytope_and_the_force_have_one_scale(monkeypatch):
     half = 2 * np.linalg.norm(answer.h)
     square = half * np.array([[1, 0, -1, 0], [0, 1, 0, -1], [0, 0, 0, 0]])
     shape = SimpleNamespace(status="optimal", vertices=square.T, triangles=np.array([[0, 1, 2], [0, 2, 3]]))
-    monkeypatch.setattr(mw._core, "polytope", lambda of, directions: shape, raising=False)
+    monkeypatch.setattr(mw._core, "polytope", lambda of, directions, wrench: shape, raising=False)
     drawn = []
     monkeypatch.setattr(mw._plot, "_draw_faces", lambda ax, faces, colour, alpha: drawn.append((np.array(faces), alpha)))
     answer.plot()
