@@ -18,9 +18,9 @@ constexpr double kSlopeTolerance = 1e-12;
 class SaturatingWrench : public Measure {
  public:
   explicit SaturatingWrench(const Robot& robot)
-      : box_(make_zonotope(Eigen::MatrixXd::Identity(robot.actuation.actuators(),
-                                                     robot.actuation.actuators()),
-                           robot.actuation.u_min, robot.actuation.u_max)) {
+      : box_(make_zonotope(
+            Eigen::MatrixXd::Identity(robot.actuation.actuators(), robot.actuation.actuators()),
+            robot.actuation.u_min, robot.actuation.u_max)) {
     const Eigen::VectorXd limit = smaller_limits(robot.actuation);
     const Eigen::MatrixXd scaled = robot.actuation.B * limit.asDiagonal();
     K_ = limit.asDiagonal() * pseudo_inverse(scaled);
