@@ -34,15 +34,18 @@ def race(tasks, searches, *, seeds=5, budget=2000, measure="linf_polytope", wren
     searches = [searches] if isinstance(searches, str) else searches
     tasks = [tasks] if isinstance(tasks, (str, _core.Task)) else tasks
     loaded = [task if isinstance(task, _core.Task) else _core.load(task) for task in tasks]
-    for task, search, seed in itertools.product(loaded, searches, range(1, seeds + 1)):
-        answer = _core.solve(
-            task, measure=measure, wrench=wrench, search=search, seed=seed, budget=budget, threads=threads
-        )
-        if answer.stopped == "interrupted":
-            break
-        run = (task.name, search, seed, answer.beta, answer.evaluations, answer.seconds, answer.status)
-        for column, value in zip(columns.values(), run):
-            column.append(value)
+    try:
+        for task, search, seed in itertools.product(loaded, searches, range(1, seeds + 1)):
+            answer = _core.solve(
+                task, measure=measure, wrench=wrench, search=search, seed=seed, budget=budget, threads=threads
+            )
+            if answer.stopped == "interrupted":
+                break
+            run = (task.name, search, seed, answer.beta, answer.evaluations, answer.seconds, answer.status)
+            for column, value in zip(columns.values(), run):
+                column.append(value)
+    except KeyboardInterrupt:  # between two runs
+        columns = {name: column[: len(columns["status"])] for name, column in columns.items()}
     runs = {name: np.array(column) for name, column in columns.items()}
     runs["gap"] = np.full(len(runs["beta"]), np.nan)
     for name in dict.fromkeys(columns["task"]):

@@ -128,7 +128,12 @@ Callback::~Callback() {
   try {
     function_.attr("close")();
   } catch (py::error_already_set& error) {
-    error.discard_as_unraisable("the line of progress");
+    // A destructor cannot throw, so Ctrl-C is sent again.
+    if (error.matches(PyExc_KeyboardInterrupt)) {
+      PyErr_SetInterrupt();
+    } else {
+      error.discard_as_unraisable("the line of progress");
+    }
   }
 }
 
