@@ -13,9 +13,17 @@ def dict_of(self):
     >>> maxwrench.linprog([1, 2], [[1, 1]], [1]).to_dict()["objective"]
     2.0
     """
-    kind = type(self)
-    names = [name for name in dir(kind) if isinstance(getattr(kind, name), property)]
-    return {name: plain(getattr(self, name)) for name in names}
+    return {name: plain(value) for name, value in attributes(self).items()}
+
+
+def attributes(thing):
+    """Returns the attributes of an object of this package by their names.
+
+    >>> sorted(maxwrench._dict.attributes(maxwrench.Pose([1, 2, 3])))[0]
+    'R'
+    """
+    kind = type(thing)
+    return {name: getattr(thing, name) for name in dir(kind) if isinstance(getattr(kind, name), property)}
 
 
 def plain(value):

@@ -4,6 +4,8 @@ from html import escape
 
 import numpy as np
 
+from ._dict import attributes
+
 
 def answer_html(answer):
     """Returns an Answer as an HTML table: value, status, posture, efforts and residuals.
@@ -182,9 +184,7 @@ def attributes_html(thing):
     >>> "rpy" in maxwrench.Pose([1, 2, 3])._repr_html_()
     True
     """
-    kind = type(thing)
-    names = [name for name in dir(kind) if isinstance(getattr(kind, name), property)]
-    return _table(kind.__name__, [(name, _brief(getattr(thing, name))) for name in names])
+    return _table(type(thing).__name__, [(name, _brief(value)) for name, value in attributes(thing).items()])
 
 
 def _brief(value):

@@ -19,7 +19,8 @@ def plot_answer(answer, ax=None):
 
     A static answer is a robot in three dimensions: its bodies, its skeleton from joint to joint, and
     the force and the torque that it exerts within the sets of all that it can exert, or their
-    direction if there is no value. An answer in time is three panels over time: beta, theta_r, and the efforts as shares of their limits.
+    direction if there is no value. An answer in time is three panels over time: beta, theta_r, and
+    the efforts as shares of their limits.
 
     Args:
         answer: an Answer with a posture.
