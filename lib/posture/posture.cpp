@@ -3,7 +3,6 @@
 #include <cassert>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
 
 #include "lib/posture/ik/dependent_joints.h"
 #include "lib/posture/ik/primary_ik.h"
@@ -11,6 +10,7 @@
 #include "lib/posture/posture_state.h"
 #include "lib/posture/pull_back.h"
 #include "lib/posture/scenario_slopes.h"
+#include "lib/posture/seeds.h"
 #include "maxwrench/capability.h"
 
 namespace maxwrench {
@@ -33,21 +33,6 @@ constexpr Fault kUnreachableContact{Violation::kNoSolution,
 constexpr Fault kBaseOffItsAxes{Violation::kBase,
                                 "unreachable pose: the base would leave its free axes"};
 constexpr Fault kSelfCollision{Violation::kCollision, "self-collision"};
-
-/// Throws std::invalid_argument unless a measure has filled its derivatives.
-void require_seeds(Eigen::Index n, const Eigen::VectorXd& tau_seed, const Matrix6Xd& J_seed) {
-  if (tau_seed.size() == n && J_seed.cols() == n) return;
-  throw std::invalid_argument("derivatives: got " + std::to_string(tau_seed.size()) +
-                              " by tau_d and " + std::to_string(J_seed.cols()) +
-                              " columns by J, expected " + std::to_string(n) + " of both");
-}
-
-/// The same for those by q, J_2 and C_2, which a measure that does not depend on them leaves empty.
-void require_columns(const char* by, Eigen::Index got, Eigen::Index columns) {
-  if (got == 0 || got == columns) return;
-  throw std::invalid_argument("derivatives: got " + std::to_string(got) + " columns by " + by +
-                              ", expected " + std::to_string(columns) + ", or none");
-}
 
 /// A posture at one theta_r: the indices of the IK solutions for the dependent coordinates and for
 /// the second arm.
@@ -246,14 +231,12 @@ struct PostureEvaluator::Workspace {
     }
   }
 
-  void pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
-                 const Matrix6Xd& J_seed, const Eigen::VectorXd& q_seed, const Matrix6Xd& J2_seed,
-                 const Matrix6Xd& C2_seed, const Capability* decided, Eigen::VectorXd& gradient) {
-    require_seeds(model.J.cols(), tau_seed, J_seed);
-    require_columns("q", q_seed.size(), model.q.size());
+  void pull_back(const Eigen::VectorXd& theta_r, const Seeds& by, const Capability* decided,
+                 Eigen::VectorXd& gradient) {
+    by.require(model.J.cols(), model.q.size());
     if (second) {
-      require_columns("J_2", J2_seed.cols(), model.J.cols());
-      require_columns("C_2", C2_seed.cols(), problem.contact_columns());
+      require_columns("J_2", by.J_2.cols(), model.J.cols());
+      require_columns("C_2", by.C_2.cols(), problem.contact_columns());
     }
     if (model.theta_r != theta_r) {
       if (second || primary) {
@@ -264,15 +247,15 @@ struct PostureEvaluator::Workspace {
     }
     gradient.resize(theta_r.size());
     const Eigen::Vector3d& p_e = model.pose.p;
-    const Matrix6Xd& seeds = second ? second->shifted_seeds(p_e, J_seed, J2_seed) : J_seed;
+    const Matrix6Xd& seeds = second ? second->shifted_seeds(p_e, by.J, by.J_2) : by.J;
     if (decided) slopes->load(decided->decides, model);
-    reverse.evaluate(model.kinematics, model.base.R, model.J, tau_seed, seeds, q_gradient);
+    reverse.evaluate(model.kinematics, model.base.R, model.J, by.tau_d, seeds, q_gradient);
     Eigen::Vector3d by_turn = Eigen::Vector3d::Zero();
     if (decided) {
       slopes->unload(model);
       by_turn = slopes->add(model, *decided, q_gradient);
     }
-    if (q_seed.size() > 0) q_gradient += q_seed;
+    if (by.q.size() > 0) q_gradient += by.q;
     const std::vector<Joint>& joints = problem.robot.joints;
     for (std::size_t i = 0; i < joints.size(); ++i) {
       const std::optional<Gear>& gear = joints[i].gear;
@@ -280,7 +263,7 @@ struct PostureEvaluator::Workspace {
       q_gradient[gear->leader] += gear->ratio * q_gradient[static_cast<Eigen::Index>(i)];
     }
     if (second) {
-      second->follow(p_e, model.J, model.J_2, J2_seed, C2_seed, q_gradient, gradient);
+      second->follow(p_e, model.J, model.J_2, by.J_2, by.C_2, q_gradient, gradient);
     }
     if (primary) {
       primary->follow(model.J, q_gradient, gradient);
@@ -289,7 +272,7 @@ struct PostureEvaluator::Workspace {
         gradient[static_cast<Eigen::Index>(k)] = q_gradient[problem.redundant[k]];
       }
     }
-    if (!problem.free.axes.empty()) follow_pose(J_seed, by_turn, gradient);
+    if (!problem.free.axes.empty()) follow_pose(by.J, by_turn, gradient);
   }
 
   /// The derivatives by the free coordinates of the pose; `by_turn`: what a turn of the robot
@@ -356,15 +339,16 @@ void PostureEvaluator::pull_back(const Eigen::VectorXd& theta_r, const Eigen::Ve
                                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) {
   require_theta_r(workspace_->problem, theta_r);
   const Workspace& ws = *workspace_;
-  workspace_->pull_back(theta_r, tau_seed, J_seed, ws.none_by_q, ws.none, ws.none, nullptr,
+  workspace_->pull_back(theta_r, {tau_seed, J_seed, ws.none_by_q, ws.none, ws.none}, nullptr,
                         gradient);
 }
 
 void PostureEvaluator::pull_back(const Eigen::VectorXd& theta_r, const Capability& capability,
                                  Eigen::VectorXd& gradient) {
   require_theta_r(workspace_->problem, theta_r);
-  workspace_->pull_back(theta_r, capability.lambda, capability.beta_J, capability.beta_q,
-                        capability.beta_J2, capability.beta_C2,
+  workspace_->pull_back(theta_r,
+                        {capability.lambda, capability.beta_J, capability.beta_q,
+                         capability.beta_J2, capability.beta_C2},
                         workspace_->slopes ? &capability : nullptr, gradient);
 }
 

@@ -1,107 +1,25 @@
-// Measures of accelerations, against a planar arm in closed form, the equation of motion by the
-// recursive algorithm, and dense least squares.
+// Values of the measures of accelerations, against a planar arm in closed form, the equation of
+// motion by the recursive algorithm, and dense least squares.
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <string>
 
 #include "lib/math/decompositions.h"
 #include "lib/robot/dynamics.h"
-#include "maxwrench/load.h"
 #include "maxwrench/measure.h"
-#include "maxwrench/objective.h"
 #include "maxwrench/posture.h"
-#include "maxwrench/strategies.h"
-#include "maxwrench/wrench_program.h"
-#include "solvers/solve/method.h"
+#include "tests/lib/measure/planar_arm.h"
 #include "tests/support/coded_tasks.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
 
-using testing::HasSubstr;
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
-
-constexpr const char* kBoth[] = {"dynamic_manipulability", "dynamic_capability"};
-
-Capability value_at(const Problem& problem, const std::string& measure, const Posture& posture) {
-  WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
-  set_posture(posture, program);
-  Capability capability;
-  find_measure(measure).make(problem, nullptr)->evaluate(posture, program, true, capability);
-  return capability;
-}
-
-/// An arm of two joints in the plane of x and z, under gravity along -z, with all of its dynamics
-/// by hand: joint angles from x towards z, links of length l with the mass m at l_c and the moment
-/// I about it.
-struct PlanarArm {
-  double m_1 = 3, l_1 = 0.5, c_1 = 0.2, I_1 = 0.05, m_2 = 2, l_2 = 0.4, c_2 = 0.25, I_2 = 0.02;
-  Vector u_min, u_max;
-  Problem problem;
-
-  explicit PlanarArm(Vector lowest = Eigen::Vector2d(-60, -30),
-                     Vector highest = Eigen::Vector2d(60, 30))
-      : u_min(std::move(lowest)), u_max(std::move(highest)) {
-    problem.name = "planar arm";
-    Robot& robot = problem.robot;
-    robot.name = "planar arm";
-    robot.links.resize(3);
-    robot.joints.resize(2);
-    const double m[] = {m_1, m_2}, c[] = {c_1, c_2}, I[] = {I_1, I_2};
-    for (std::size_t i = 0; i < 2; ++i) {
-      robot.links[i + 1].mass = m[i];
-      robot.links[i + 1].com.x() = c[i];
-      robot.links[i + 1].inertia.diagonal() << 1e-3, I[i], I[i];
-      robot.joints[i].axis = -Eigen::Vector3d::UnitY();
-      robot.joints[i].parent = static_cast<int>(i);
-    }
-    robot.joints[1].placement.p.x() = l_1;
-    robot.end_effectors = {{"tool", 2, {Eigen::Matrix3d::Identity(), {l_2, 0, 0}}}};
-    robot.actuation = make_zonotope(Matrix::Identity(2, 2), u_min, u_max);
-    problem.W_any.setZero(6, 2);
-    problem.W_any(0, 0) = problem.W_any(2, 1) = 1;
-    problem.c = Vector6d::Unit(2);
-  }
-
-  Eigen::Matrix2d M(double q_2) const {
-    const double h = m_2 * l_1 * c_2 * std::cos(q_2);
-    const double b = I_2 + m_2 * c_2 * c_2;
-    Eigen::Matrix2d M;
-    M << I_1 + m_1 * c_1 * c_1 + m_2 * l_1 * l_1 + b + 2 * h, b + h, b + h, b;
-    return M;
-  }
-  Eigen::Vector2d load(double q_1, double q_2) const {
-    const double outer = 9.81 * m_2 * c_2 * std::cos(q_1 + q_2);
-    return {9.81 * (m_1 * c_1 + m_2 * l_1) * std::cos(q_1) + outer, outer};
-  }
-  Eigen::Matrix2d J(double q_1, double q_2) const {
-    const double x = l_2 * std::cos(q_1 + q_2), z = l_2 * std::sin(q_1 + q_2);
-    Eigen::Matrix2d J;
-    J << -l_1 * std::sin(q_1) - z, -z, l_1 * std::cos(q_1) + x, x;
-    return J;
-  }
-  Posture posture(double q_1, double q_2) const {
-    Posture at;
-    at.status = Status::kValid;
-    at.q = Eigen::Vector2d(q_1, q_2);
-    at.tau_d = load(q_1, q_2);
-    at.J.setZero(6, 2);
-    at.J.row(0) = J(q_1, q_2).row(0);
-    at.J.row(2) = J(q_1, q_2).row(1);
-    at.J.row(4).setConstant(-1);
-    return at;
-  }
-  /// u = load + M J^-1 a: with as many joints as directions a determines it.
-  Eigen::Vector2d efforts(double q_1, double q_2, const Eigen::Vector2d& a) const {
-    return load(q_1, q_2) + M(q_2) * J(q_1, q_2).inverse() * a;
-  }
-};
 
 /// The largest beta up to which `holds`, which ends there, by bisection.
 template <class Holds>
@@ -128,8 +46,8 @@ TEST(DynamicMeasure, OfThePlanarArmInClosedForm) {
     const auto in_ellipse = [&](double beta) {
       return arm.efforts(q_1, q_2, beta * c).cwiseQuotient(smaller).norm() <= 1;
     };
-    const Capability along = value_at(arm.problem, kBoth[0], posture);
-    const Capability all = value_at(arm.problem, kBoth[1], posture);
+    const Capability along = value_at(arm.problem, kDynamicMeasures[0], posture);
+    const Capability all = value_at(arm.problem, kDynamicMeasures[1], posture);
     if (!in_ellipse(0)) {
       EXPECT_EQ(along.status, Status::kInfeasible);
     } else {
@@ -183,16 +101,16 @@ TEST(DynamicMeasure, GravityHelpsDownwardsOnly) {
     problem.c = sign * Vector6d::Unit(2);
     robot.actuation =
         make_zonotope(Matrix::Identity(1, 1), Vector::Constant(1, -20), Vector::Constant(1, 20));
-    EXPECT_NEAR(value_at(problem, kBoth[0], posture).beta, 20 - sign * 9.81, 1e-12);
-    EXPECT_NEAR(value_at(problem, kBoth[1], posture).beta, 20 - 9.81, 1e-12);
+    EXPECT_NEAR(value_at(problem, kDynamicMeasures[0], posture).beta, 20 - sign * 9.81, 1e-12);
+    EXPECT_NEAR(value_at(problem, kDynamicMeasures[1], posture).beta, 20 - 9.81, 1e-12);
     // A motor that only lifts: the weight alone gives way downwards.
     robot.actuation =
         make_zonotope(Matrix::Identity(1, 1), Vector::Zero(1), Vector::Constant(1, 20));
-    EXPECT_NEAR(value_at(problem, kBoth[1], posture).beta, 9.81, 1e-12);
+    EXPECT_NEAR(value_at(problem, kDynamicMeasures[1], posture).beta, 9.81, 1e-12);
     EXPECT_THROW(make_dynamic_manipulability(problem), std::invalid_argument);
     robot.actuation =
         make_zonotope(Matrix::Identity(1, 1), Vector::Constant(1, -9), Vector::Constant(1, 9));
-    for (const char* measure : kBoth) {
+    for (const char* measure : kDynamicMeasures) {
       EXPECT_EQ(value_at(problem, measure, posture).status, Status::kInfeasible) << measure;
     }
   }
@@ -230,7 +148,7 @@ Vector accelerations_of(const Problem& problem, const Posture& posture, const Ve
 /// No efforts with |W_u u| <= 1 accelerate further than the supporting plane, whose normal p
 /// follows from lambda: M lambda + J'p = 0, p'c = 1.
 void expect_farthest(const Problem& problem, const Posture& posture, Random& random) {
-  const Capability found = value_at(problem, kBoth[0], posture);
+  const Capability found = value_at(problem, kDynamicMeasures[0], posture);
   ASSERT_EQ(found.status, Status::kOptimal) << found.reason.c_str();
   EXPECT_TRUE(found.residual.within(1e-8 * (1 + found.beta)));
   const Zonotope& set = problem.robot.actuation;
@@ -280,7 +198,7 @@ TEST(DynamicMeasure, EveryDirectionIsWithinAllLimits) {
     const Problem problem = wet_problem(random);
     PostureEvaluator model(problem, false);
     const Posture posture = model.evaluate(random_theta_r(problem, random));
-    const Capability found = value_at(problem, kBoth[1], posture);
+    const Capability found = value_at(problem, kDynamicMeasures[1], posture);
     if (found.status == Status::kInfeasible) continue;
     ASSERT_EQ(found.status, Status::kOptimal) << found.reason.c_str();
     EXPECT_TRUE(found.residual.within(1e-8 * (1 + found.beta)));
@@ -312,128 +230,6 @@ TEST(DynamicMeasure, EveryDirectionIsWithinAllLimits) {
     EXPECT_NEAR(worst.norm(), found.beta, 1e-9 * (1 + found.beta));
     EXPECT_NEAR(excess(worst.normalized()), 0, 1e-8);
   }
-}
-
-/// For dependent joints, free poses and fixed bases, too. A kink is left out, where the differences
-/// to both sides disagree.
-void expect_gradient(const Problem& problem, const std::string& measure, int wanted) {
-  const auto f = make_capability_objective(
-      problem, Wrench::kPure, resolve(problem, {problem.name, measure}).make_measure, false);
-  Random random(24);
-  constexpr double kChange = 1e-6;
-  int compared = 0;
-  for (int sample = 0; sample < 400 && compared < wanted; ++sample) {
-    const Vector theta_r = random_theta_r(problem, random);
-    Vector gradient;
-    const double value = f->evaluate(theta_r, &gradient);
-    if (!std::isfinite(value)) continue;
-    for (int k = 0; k < problem.redundancy(); ++k) {
-      const Vector step = kChange * Vector::Unit(theta_r.size(), k);
-      const double after = f->evaluate(theta_r + step, nullptr);
-      const double before = f->evaluate(theta_r - step, nullptr);
-      const double difference = (after - before) / (2 * kChange);
-      const double scale = 1 + std::abs(value) + std::abs(difference);
-      if (!(std::abs(after - 2 * value + before) < 1e-3 * kChange * scale)) continue;
-      EXPECT_NEAR(gradient[k], difference, 1e-5 * scale)
-          << problem.name << " " << measure << " " << problem.theta_r_name(k);
-      ++compared;
-    }
-  }
-  EXPECT_GE(compared, wanted) << problem.name << " " << measure;
-}
-
-TEST(DynamicMeasure, GradientsEqualDifferences) {
-  for (const char* name : {"planar/force", "uvms/valve", "uvms/lift", "mobile/push",
-                           "mobile/push_any_height", "fixed/push", "gallery/gen3/push"}) {
-    const Problem problem = load_problem(name);
-    for (const char* measure : kBoth) expect_gradient(problem, measure, samples(40));
-  }
-}
-
-TEST(DynamicMeasure, DerivativesByTheJointsAreLeftToTheirMeasure) {
-  const Problem problem = load_problem("uvms/valve");
-  PostureEvaluator model(problem);
-  const Posture& posture = model.evaluate(problem.theta_r_default);
-  Capability capability = value_at(problem, kBoth[0], posture);
-  ASSERT_EQ(capability.status, Status::kOptimal);
-  EXPECT_GT(capability.beta_q.norm(), 0);
-  Vector alone, after;
-  capability.beta_q.conservativeResize(2);
-  EXPECT_THAT(rejection_of([&] { model.pull_back(problem.theta_r_default, capability, after); }),
-              HasSubstr("got 2 columns by q"));
-  WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
-  set_posture(posture, program);
-  for (const char* measure : {"linf_polytope", "manipulability"}) {
-    const auto other = resolve(problem, {problem.name, measure}).make_measure();
-    Capability used = value_at(problem, kBoth[0], posture), fresh;
-    other->evaluate(posture, program, false, used);
-    other->evaluate(posture, program, false, fresh);
-    model.pull_back(problem.theta_r_default, used, after);
-    model.pull_back(problem.theta_r_default, fresh, alone);
-    EXPECT_EQ(after, alone) << measure;
-    EXPECT_EQ(fresh.beta_q.size(), 0) << measure;
-  }
-}
-
-TEST(DynamicMeasure, SaysWhyThereIsNoValue) {
-  PlanarArm arm;
-  const auto why = [&](const char* measure, const Posture& posture) {
-    const Capability found = value_at(arm.problem, measure, posture);
-    EXPECT_EQ(found.status, Status::kNumericalError) << measure;
-    EXPECT_TRUE(found.lambda.isZero(0));
-    return found.reason.str();
-  };
-  Posture unknown = arm.posture(0.3, 0.7);
-  unknown.q.resize(0);
-  Posture spoiled = arm.posture(0.3, 0.7);
-  spoiled.q[1] = kNan;
-  for (const char* measure : kBoth) {
-    EXPECT_EQ(value_at(arm.problem, measure, arm.posture(0.3, 0.7)).status, Status::kOptimal);
-    EXPECT_THAT(why(measure, arm.posture(0.3, 0)), HasSubstr("singular"));  // stretched
-    EXPECT_THAT(why(measure, spoiled), HasSubstr("M is singular"));
-    EXPECT_THAT(why(measure, unknown), HasSubstr("no joint positions"));
-  }
-  arm.problem.robot.links[2].mass = 0;
-  arm.problem.robot.links[2].inertia.setZero();
-  for (const char* measure : kBoth) {
-    EXPECT_THAT(why(measure, arm.posture(0.3, 0.7)), HasSubstr("M is singular"));
-  }
-}
-
-TEST(DynamicMeasure, TasksAndRobotsWithoutAccelerationsAreRejected) {
-  const Problem contact = load_problem("planar/two_arms");
-  Problem lacking = load_problem("planar/force");
-  lacking.robot.no_dynamics = {{"link[tip].inertial.mass", "0", "a mass > 0"}};
-  Problem geared = load_problem("planar/force");
-  geared.robot.joints[1].gear = Gear{0, 1, 0};
-  for (const char* measure : kBoth) {
-    const auto rejection = [&](const Problem& problem) {
-      const Method method = resolve(problem, {problem.name, measure});
-      return rejection_of([&] { method.make_measure(); });
-    };
-    const std::string measure_key = std::string("measure ") + measure + ": ";
-    EXPECT_THAT(rejection(contact),
-                HasSubstr(measure_key + "planar/two_arms has a second contact"));
-    EXPECT_THAT(rejection(lacking), HasSubstr(measure_key + "link[tip].inertial.mass: got 0"));
-    EXPECT_THAT(rejection(geared), HasSubstr(measure_key + "joint elbow of planar vehicle has a"));
-    for (const Problem& problem : {contact, lacking, geared}) {
-      EXPECT_TRUE(supported_solvers(problem, measure, Wrench::kPure).empty());
-    }
-    EXPECT_FALSE(supported_solvers(load_problem("planar/force"), measure, Wrench::kPure).empty());
-    EXPECT_THAT(rejection_of([&] {
-                  resolve(lacking, {lacking.name, measure, Wrench::kAny});
-                }),
-                HasSubstr("does not support, expected pure"));
-  }
-  Problem mixed = load_problem("planar/force");
-  mixed.c << 0.6, 0, 0, 0, 0, 0.8;
-  EXPECT_THAT(rejection_of([&] { make_dynamic_capability(mixed); }),
-              HasSubstr("c of planar/force has both force and torque"));
-  EXPECT_NO_THROW(make_dynamic_manipulability(mixed));
-  EXPECT_STREQ(resolve(mixed, {mixed.name, kBoth[0]}).unit, "mixed");
-  const Problem force = load_problem("planar/force"), torque = load_problem("uvms/valve");
-  EXPECT_STREQ(resolve(force, {force.name, kBoth[0]}).unit, "m/s^2");
-  EXPECT_STREQ(resolve(torque, {torque.name, kBoth[1]}).unit, "rad/s^2");
 }
 
 }  // namespace
