@@ -67,7 +67,7 @@ TEST(Streams, ImpossiblePathsAreOneLine) {
   }
 }
 
-TEST(Streams, AnAnswerThatDoesNotArriveIsAnError) {
+TEST(Streams, SLOW_AnAnswerThatDoesNotArriveIsAnError) {
   const TemporaryFolder folder;
   for (const char* words : {"list", "--help", "--version", "check planar/force",
                             "eval planar/force --json", "plot planar/force"}) {

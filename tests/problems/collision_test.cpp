@@ -136,7 +136,7 @@ bool separated(const Shape& a, const Pose<double>& pose_a, const Shape& b,
 
 /// Boxes and cylinders, both ways: points of one that lie within the margin of the other prove a
 /// collision; a separating axis beyond the grown margin proves that there is none.
-TEST(BoxesAndCylinders, AgreeWithSampledPointsAndSeparatingAxes) {
+TEST(BoxesAndCylinders, SLOW_AgreeWithSampledPointsAndSeparatingAxes) {
   using enum Shape::Kind;
   Sampler sampler;
   int collisions = 0, separations = 0;

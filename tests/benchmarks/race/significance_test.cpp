@@ -39,7 +39,7 @@ int quantile_of(const std::vector<double>& share, double probability) {
   return place;
 }
 
-TEST(Significance, MedianIntervalIsThatOfEveryResample) {
+TEST(Significance, SLOW_MedianIntervalIsThatOfEveryResample) {
   for (const int n : {6, 7}) {
     std::vector<double> places;
     for (int i = n; i >= 1; --i) places.push_back(i);  // the value is the place

@@ -68,7 +68,7 @@ TEST_F(RunSuite, SLOW_GivesTheSameValuesAtAnyThreadCount) {
   }
 }
 
-TEST_F(RunSuite, GoesOnAfterItWasKilled) {
+TEST_F(RunSuite, SLOW_GoesOnAfterItWasKilled) {
   const std::string one = undisturbed();
   bool had_rows = false;
   for (int kill = 0; kill < 10; ++kill) {

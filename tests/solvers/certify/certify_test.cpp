@@ -196,7 +196,7 @@ TEST(Certify, HoldsForPosturesOneByOne) {
 }
 
 /// The same where joints follow: no IK solution of the postures is cut off from the boxes.
-TEST(Certify, HoldsForPosturesWhoseJointsFollow) {
+TEST(Certify, SLOW_HoldsForPosturesWhoseJointsFollow) {
   for (const char* name : {"mobile/push", "dual_arm/bar_wall"}) {
     ProofCase at(name, "linf_polytope", Wrench::kPure);
     PostureSource source(at.problem, at.measure);

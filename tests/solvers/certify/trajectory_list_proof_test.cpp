@@ -46,7 +46,7 @@ const ListProof& list_proof() {
 /// The posture is held, so nothing lies between samples: what is proven is nearly the value between
 /// knots, 12.072 N m. The value of a list is the least of its scenarios, each of which another
 /// evaluation bounds.
-TEST(TrajectoryListProof, ProvesTheLeastOfAllScenarios) {
+TEST(TrajectoryListProof, SLOW_ProvesTheLeastOfAllScenarios) {
   const auto& [problem, proof, claims] = list_proof();
   EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
   const double between = proof.answer.trajectory.value_between_knots;

@@ -130,7 +130,7 @@ TEST(MotionIntegration, AllIntegratorsAgreeOnTheVehicle) {
 
 /// Its light arm, free to swing, makes about a hundred times more of every error, which is the same
 /// for all integrators; fifty steps' worth of it remain.
-TEST(MotionIntegration, AllIntegratorsAgreeOnTheVehicleWithItsArm) {
+TEST(MotionIntegration, SLOW_AllIntegratorsAgreeOnTheVehicleWithItsArm) {
   const Swing swing;
   const double grown = amplification(swing);
   EXPECT_GT(grown, 20);
@@ -192,7 +192,7 @@ TEST(MotionIntegration, PowerBalancesToTheTolerance) {
 
 /// Without the quadratic drag: where |v| v passes zero its second derivative jumps, and the order
 /// of a step across is lower.
-TEST(MotionIntegration, RungeKuttaConvergesWithOrderFour) {
+TEST(MotionIntegration, SLOW_RungeKuttaConvergesWithOrderFour) {
   Swing swing;
   for (Link& link : swing.robot.links) {
     for (HydrodynamicBody& body : link.hydrodynamics) body.damping_quadratic.setZero();

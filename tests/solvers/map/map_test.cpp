@@ -160,7 +160,7 @@ TEST(Map, SaysWhatChangesNothing) {
 }
 
 /// Each of both senses of the torque alone has the value of uvms/valve, 35.4083 N m (proven).
-TEST(Map, OfEachOfSeveralWrenches) {
+TEST(Map, SLOW_OfEachOfSeveralWrenches) {
   const Problem task = load_problem(MAXWRENCH_SOURCE_DIR "/examples/tasks/turn_both_ways.toml");
   const CapabilityMap found = map(task, plan_over({{"wrench", 1, 2, 2}}), with_budget(20000));
   ASSERT_EQ(found.cells.size(), 2u);
@@ -168,7 +168,7 @@ TEST(Map, OfEachOfSeveralWrenches) {
 }
 
 /// Out of reach there is no value, which is a result.
-TEST(Map, OutOfReachNothingIsFound) {
+TEST(Map, SLOW_OutOfReachNothingIsFound) {
   const CapabilityMap found =
       map(load_problem("fixed/push"), plan_over({{"x", 9, 9, 1}}), with_budget(20));
   EXPECT_EQ(found.status, Status::kNoneFound);

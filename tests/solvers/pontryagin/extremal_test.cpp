@@ -42,7 +42,7 @@ Problem slider(double gravity, double effort) {
 /// Accelerating with U/M - g and braking with U/M + g, M in all, moves by d = T^2/2 times their
 /// product over their sum. With x = U/M: x^2 - g^2 = 4 d x/T^2, so x = 2 d/T^2 + sqrt((2 d/T^2)^2 +
 /// g^2). The effort changes at T (x + g)/(2 x).
-TEST(Extremal, OfADoubleIntegratorIsTheClosedForm) {
+TEST(Extremal, SLOW_OfADoubleIntegratorIsTheClosedForm) {
   for (const auto& [gravity, effort] : {std::pair(9.81, 40.0), std::pair(0.0, 10.0)}) {
     if (kSanitized && gravity == 0) continue;
     const Problem problem = slider(gravity, effort);

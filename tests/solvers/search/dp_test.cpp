@@ -317,7 +317,7 @@ TEST(Dp, RefusesATransfer) {
 }
 
 /// slp continues from its plan.
-TEST(Dp, IsAStageBeforeSlp) {
+TEST(Dp, SLOW_IsAStageBeforeSlp) {
   const Problem problem = load_problem("planar/trajectory");
   Options options;
   options.budget = 3000;

@@ -42,7 +42,7 @@ Eigen::MatrixXd held_points(const Problem& problem, Eigen::Index count) {
 }
 
 /// In this current no efforts hold the default posture throughout, but other plans have efforts.
-TEST(MpcWindow, LeavesAPlanWithoutEfforts) {
+TEST(MpcWindow, SLOW_LeavesAPlanWithoutEfforts) {
   Problem problem = load_problem("uvms/valve_trajectory");
   problem.robot.current = {1.4, 0, 0};
   const int k = problem.motion->k;

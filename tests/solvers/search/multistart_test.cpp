@@ -10,7 +10,7 @@ namespace {
 
 /// The paper's bilevel method on trajectories: above the start, within the rows of the knots, and
 /// no more evaluations than allowed.
-TEST(Multistart, LocalSearchesTrajectoriesWithinTheirRows) {
+TEST(Multistart, SLOW_LocalSearchesTrajectoriesWithinTheirRows) {
   for (const char* name : {"planar/trajectory", "uvms/valve_impulse"}) {
     const Problem problem = load_problem(name);
     const auto objective = make_trajectory_objective(problem, Wrench::kPure,

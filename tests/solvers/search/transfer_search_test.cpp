@@ -31,7 +31,7 @@ double transferred_mass(const Problem& problem, Search& search, std::uint64_t se
 
 /// The two-link arm of R. Luus moves 1 kg in its least time of 2.98228 s. With k knots it moves
 /// less: 0.87528 kg for k = 8, from an independent model.
-TEST(TransferSearch, JointNlpFindsThePublishedMass) {
+TEST(TransferSearch, SLOW_JointNlpFindsThePublishedMass) {
   const Problem problem = load_problem(MAXWRENCH_SOURCE_DIR "/examples/tasks/two_link/luus.toml");
   EXPECT_NEAR(transferred_mass(problem, *make_joint_nlp(), 1, 1500), 0.87528, 1e-4);
 }

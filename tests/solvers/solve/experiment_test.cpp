@@ -60,7 +60,7 @@ TEST(Experiment, WhatHasNoTrajectoryHasNoReading) {
 }
 
 /// Thrusters and joints that hardly change let go of the posture while the wrench still grows.
-TEST(Experiment, ALostPostureHasNoReading) {
+TEST(Experiment, SLOW_ALostPostureHasNoReading) {
   Problem problem = load_problem("uvms/valve");
   problem.robot.u_rate_max.setConstant(0.1);
   const Answer row = experiment(problem, tried("uvms/valve", "cvode"));

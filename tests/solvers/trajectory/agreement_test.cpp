@@ -87,7 +87,7 @@ TEST(TrajectoryAgreement, EverySolverGivesTheSameAnswerOnRandomPrograms) {
   EXPECT_GT(tallies["ipm"].optimal, samples(120));
 }
 
-TEST(TrajectoryAgreement, OtherRobots) {
+TEST(TrajectoryAgreement, SLOW_OtherRobots) {
   for (const std::string& name : shipped_problems()) {
     const Problem problem = load_problem(name);
     Random random(2);

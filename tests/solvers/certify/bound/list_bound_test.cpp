@@ -143,7 +143,7 @@ TEST(ListBound, IsThatOfItsScenarios) {
 
 /// Joints that follow, and a base that only drives and turns. The value is the best over all IK
 /// solutions.
-TEST(ListBound, SupportsDependentJoints) {
+TEST(ListBound, SLOW_SupportsDependentJoints) {
   Problem task = load_problem("mobile/push");
   ScenarioList& list = task.scenarios;
   list.wrenches = {{.name = "", .c = task.c}};

@@ -77,7 +77,7 @@ TEST_P(LoopBoundOf, NoPostureIsAboveOrCutOff) {
   test_pairs(loop_problem(GetParam()), "linf_polytope");
 }
 
-TEST(LoopBound, SupportsOtherMeasures) {
+TEST(LoopBound, SLOW_SupportsOtherMeasures) {
   for (const char* measure : {"l2_polytope", "ellipsoid"}) {
     for (const char* name : {"mobile/push", "fixed/push", "mobile/push_any_height"}) {
       test_pairs(load_problem(name), measure);

@@ -49,7 +49,7 @@ TEST(PlanBound, SLOW_IsAboveTheBestKnownTrajectories) {
 }
 
 /// An open peak counts all knots, so its bound is not below that of a given one.
-TEST(PlanBound, OfAnOpenPeakIsThatOfTheBestOne) {
+TEST(PlanBound, SLOW_OfAnOpenPeakIsThatOfTheBestOne) {
   Problem task = load_problem("uvms/lift_impulse");
   task.motion->t_h = 0;
   Options options;
