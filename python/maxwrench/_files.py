@@ -3,10 +3,14 @@
 import os
 import tempfile
 
+from ._errors import MissingFileError, bad_value
+
 
 def write_bytes(path, content):
     """Writes a file under a temporary name and renames it."""
     folder, name = os.path.split(os.path.abspath(path))
+    if not os.path.isdir(folder):
+        raise bad_value("path", os.fspath(path), "a file in a folder that exists", file=os.fspath(path), kind=MissingFileError)
     with tempfile.NamedTemporaryFile(dir=folder, prefix=f".{name}.", delete=False) as file:
         try:
             file.write(content)

@@ -117,7 +117,8 @@ void fields(Archive& archive, Capabilities& c) {
   archive(c.shape, c.status, c.reason, c.beta, c.h, c.u, c.lambda);
 }
 
-std::vector<py::ssize_t> leading_axes(const Array& J, const Array& tau_d) {
+/// The leading axes of J and tau_d by NumPy's rules. Whichever lacks some of them is repeated.
+std::vector<py::ssize_t> broadcast(Array& J, Array& tau_d) {
   const auto front = [](const Array& array, py::ssize_t last) {
     return std::vector<py::ssize_t>(array.shape(), array.shape() + array.ndim() - last);
   };
@@ -125,11 +126,31 @@ std::vector<py::ssize_t> leading_axes(const Array& J, const Array& tau_d) {
     throw BadValue("J", "shape " + shape_of(J), "an array of shape (..., 6, n)");
   }
   const py::ssize_t n = J.shape(J.ndim() - 1);
-  if (tau_d.ndim() < 1 || tau_d.shape(tau_d.ndim() - 1) != n || front(J, 2) != front(tau_d, 1)) {
-    throw BadValue("tau_d", "shape " + shape_of(tau_d),
-                   fmt::format("an array of shape (..., {}), with the leading axes of J", n));
+  const auto expected = fmt::format(
+      "an array of shape (..., {}) whose leading axes fit those of J, {}", n, shape_of(J));
+  if (tau_d.ndim() < 1 || tau_d.shape(tau_d.ndim() - 1) != n) {
+    throw BadValue("tau_d", "shape " + shape_of(tau_d), expected);
   }
-  return front(J, 2);
+  std::vector<py::ssize_t> axes = front(J, 2);
+  if (axes == front(tau_d, 1)) return axes;
+  const py::module_ numpy = py::module_::import("numpy");
+  try {
+    axes = numpy
+               .attr("broadcast_shapes")(py::tuple(py::cast(axes)),
+                                         py::tuple(py::cast(front(tau_d, 1))))
+               .cast<std::vector<py::ssize_t>>();
+  } catch (const py::error_already_set& error) {
+    if (!error.matches(PyExc_ValueError)) throw;
+    throw BadValue("tau_d", "shape " + shape_of(tau_d), expected);
+  }
+  const auto repeat = [&](Array& array, std::initializer_list<py::ssize_t> last) {
+    std::vector<py::ssize_t> shape = axes;
+    shape.insert(shape.end(), last);
+    array = Array(numpy.attr("broadcast_to")(array, py::tuple(py::cast(shape))));
+  };
+  repeat(J, {6, n});
+  repeat(tau_d, {n});
+  return axes;
 }
 
 void evaluate_arrays(const Problem& task, const Method& method, const Array& J, const Array& tau_d,
@@ -161,8 +182,8 @@ Capabilities capability_of(const py::object& J_given, const py::object& tau_give
                            const py::object& lower, const py::object& upper, const py::object& c,
                            const py::object& B, const py::object& free, const std::string& measure,
                            const std::string& solver, int threads) {
-  const Array J = numbers("J", J_given), tau_d = numbers("tau_d", tau_given);
-  Capabilities result(leading_axes(J, tau_d), 0, 0);
+  Array J = numbers("J", J_given), tau_d = numbers("tau_d", tau_given);
+  Capabilities result(broadcast(J, tau_d), 0, 0);
   const py::ssize_t n = J.shape(J.ndim() - 1);
   const SharedZonotope actuation = actuators_in(B, lower, upper, n);
   const Problem task = task_of_arrays(*actuation, direction_in("c", c), free);
@@ -251,7 +272,8 @@ constexpr const char* kCapability = R"(Finds the capability of arrays: of whatev
     max c'h  subject to  B u - J'h = tau_d,  lower <= u <= upper,  h = c x + free w
 
 J, tau_d and the limits may come from Pinocchio, MuJoCo, Drake or any other model; ``from_pinocchio``
-and ``from_drake`` reorder wrenches. Leading axes of J and tau_d are evaluated side by side.
+and ``from_drake`` reorder wrenches. Leading axes of J and tau_d, broadcast as NumPy does, are
+evaluated side by side.
 
 Args:
     J: Jacobian (..., 6, n): velocities to the twist [linear; angular] of the end effector.

@@ -1,5 +1,6 @@
 #include "maxwrench/solve.h"
 
+#include <fmt/format.h>
 #include <pybind11/stl.h>
 
 #include "maxwrench/strategies.h"
@@ -17,6 +18,10 @@ Eigen::MatrixXd knots_in(const Array& array, const Problem& task) {
     throw BadValue(
         "theta_r", "shape " + shape_of(array),
         "an empty array: the robot is not redundant here (evaluate_joints takes joints)");
+  }
+  if (task.motion && array.ndim() != 1 && array.ndim() != 2) {
+    throw BadValue("theta_r", "shape " + shape_of(array),
+                   fmt::format("knots of shape ({}, {})", knots_of(task), task.redundancy()));
   }
   const bool table = task.motion && array.ndim() == 2;
   const Eigen::MatrixXd knots =

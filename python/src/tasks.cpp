@@ -261,6 +261,10 @@ py::tuple reduced(const Recipe& recipe, const std::string& digest) {
 
 PyTask task_of(const py::object& task) {
   if (py::isinstance<PyTask>(task)) return task.cast<PyTask>();
+  if (!py::isinstance<py::str>(task) && !py::hasattr(task, "__fspath__")) {
+    throw BadValue("task", "a " + std::string(py::str(py::type::of(task).attr("__name__"))),
+                   "a Task, or the name or the file of one");
+  }
   return load(task, "");
 }
 

@@ -102,3 +102,18 @@ def test_the_line_is_that_of_the_command(command, rejects, words, call):
     assert printed.returncode == 2 and printed.stdout == ""
     # The command names its option where the package has an argument.
     assert printed.stderr.removeprefix("maxwrench: ").removeprefix("--") == f"{error}\n"
+
+
+def test_what_is_no_task(rejects):
+    for call in (mw.solve, mw.certify):
+        assert str(rejects(call, None)).startswith("task: got a NoneType, expected a Task")
+    assert str(rejects(mw.solve, 3)) == "task: got a int, expected a Task, or the name or the file of one"
+
+
+def test_a_missing_folder_is_named_as_it_was_given(tmp_path):
+    file = str(tmp_path / "none" / "force.proof")
+    proof = mw.certify("planar/force", gap=0.01)
+    for write in (proof.save, mw.evaluate("planar/force", [0, 0]).view):
+        with pytest.raises(FileNotFoundError) as caught:
+            write(file)
+        assert str(caught.value) == f"{file}: path: got {file}, expected a file in a folder that exists"

@@ -123,6 +123,24 @@ def test_leading_axes(threads):
     assert all_of_them.status[1, 1] == "infeasible" and np.isnan(all_of_them.beta[1, 1])
 
 
+@pytest.mark.parametrize("leading", [((), (4,)), ((4,), ()), ((3, 1), (4,)), ((1, 4), (3, 4)), ((0,), ())])
+def test_leading_axes_are_broadcast_as_numpy_does(leading):
+    rng = np.random.default_rng(5)
+    J, tau_d = rng.normal(size=leading[0] + (6, 7)), rng.normal(size=leading[1] + (7,))
+    lower, upper = -np.full(7, 5.0), np.full(7, 5.0)
+    mine = mw.capability(J, tau_d, lower, upper, "z")
+    shape = np.broadcast_shapes(*leading)
+    assert mine.beta.shape == shape
+    all_J, all_tau_d = np.broadcast_to(J, shape + (6, 7)), np.broadcast_to(tau_d, shape + (7,))
+    for i in np.ndindex(shape):
+        assert mine.beta[i] == mw.capability(all_J[i], all_tau_d[i], lower, upper, "z").beta
+
+
+def test_leading_axes_that_do_not_fit(rejects):
+    error = rejects(mw.capability, np.zeros((2, 6, 7)), np.zeros((3, 7)), -np.ones(7), np.ones(7), "z")
+    assert str(error) == "tau_d: got shape (3, 7), expected an array of shape (..., 7) whose leading axes fit those of J, (2, 6, 7)"
+
+
 def test_many_rows_are_each_solved():
     # More rows than one chunk of work: all values against the closed form of one joint, (5 - tau_d) / J_x.
     levers = np.linspace(0.1, 2, 1000)

@@ -18,7 +18,8 @@ namespace maxwrench {
 constexpr const char* kDynamicMeasures[] = {"dynamic_manipulability", "dynamic_capability"};
 
 /// The measure of that name, at a posture.
-inline Capability value_at(const Problem& problem, const std::string& measure, const Posture& posture) {
+inline Capability value_at(const Problem& problem, const std::string& measure,
+                           const Posture& posture) {
   WrenchProgram program = make_wrench_program(problem, Wrench::kPure);
   set_posture(posture, program);
   Capability capability;
