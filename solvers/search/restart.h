@@ -18,7 +18,8 @@ constexpr long restart_budget(int d) { return 500L * (d + 1); }
 bool enough_restarts(long runs, long optima);
 
 /// Runs a search repeatedly, each time with `restart_budget`. The first run has the search's own
-/// seed and start; every other run has its own seed and a random start. Ends when the budget is
+/// seed and start; every other run has its own seed and a random start. Where only one coordinate
+/// is free, the second run begins at the peaks of a grid instead. Ends when the budget is
 /// used, or at `enough_restarts`; then `stopped` of the result says so. Values that differ by less
 /// than 1e-6 (1 + |f|) count as one optimum. Parallel runs count as if they took turns, so the
 /// result does not depend on the threads.
