@@ -275,7 +275,9 @@ std::optional<DataFault> why_no_body(const std::string& link, double mass,
                                      const Eigen::Matrix3d& inertia) {
   const Eigen::Vector3d moments = principal_moments(inertia);
   const double slack = 1e-9 * std::abs(moments[2]);
-  if (moments[0] < -slack || moments[0] + moments[1] < moments[2] - slack) {
+  // Files have moments of three digits or more, and of a thin plate the sum is the third moment.
+  const double rounding = 1e-3 * std::abs(moments[2]);
+  if (moments[0] < -slack || moments[0] + moments[1] < moments[2] - rounding) {
     return bad_moments(link, moments, "moments >= 0, none above the sum of the other two");
   }
   if (mass == 0 && moments[2] > 0) {

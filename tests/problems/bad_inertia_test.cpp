@@ -85,6 +85,16 @@ TEST_P(BadInertiaTest, IsRejectedByATaskInTimeAlone) {
   EXPECT_EQ(PostureEvaluator(problem).evaluate(problem.theta_r_default).status, Status::kValid);
 }
 
+/// A plate whose moments 0.1437, 0.1437 and 0.2875 are of four digits: 0.28748 rounded up, and its
+/// halves rounded down.
+TEST(RoundedInertia, OfAThinPlateIsThatOfABody) {
+  EditedCopy copy;
+  copy.replace("vehicle.urdf",
+               R"(<inertia ixx="0.15" ixy="0" ixz="0" iyy="0.32" iyz="0" izz="0.43333"/>)",
+               R"(<inertia ixx="0.1437" ixy="0" ixz="0" iyy="0.1437" iyz="0" izz="0.2875"/>)");
+  EXPECT_TRUE(load_problem((copy.path() / "trajectory.toml").string()).robot.no_dynamics.empty());
+}
+
 INSTANTIATE_TEST_SUITE_P(Loader, BadInertiaTest, testing::ValuesIn(kBadInertia),
                          [](const auto& test) { return std::string(test.param.name); });
 
