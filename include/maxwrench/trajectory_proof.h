@@ -67,7 +67,8 @@ TrajectoryProof certify_trajectory(const Problem& task, const Eigen::MatrixXd& k
 /// Searches for the best trajectory that can be proven.
 ///
 /// The best trajectory of `solve` may exceed a limit between its instants. The search is then
-/// repeated with limits of theta_r and of its rates that are tighter by the excess.
+/// repeated with limits of theta_r and of its rates that are tighter by the excess. If more is
+/// proven of the default posture, held throughout, the proof is that of this trajectory.
 ///
 /// @return the last proof; its answer is that of the search
 TrajectoryProof solve_proven(const Problem& task, const Options& options = {},

@@ -16,7 +16,8 @@ std::size_t certificate_count(const Problem& problem) {
 /// Empty, or why the certificates are not those of one trajectory of the list.
 std::string reject_list(const Problem& problem, const std::vector<TrajectoryCertificate>& proofs) {
   if (proofs.size() != certificate_count(problem)) return "it is for another robot or task";
-  for (const TrajectoryCertificate& each : proofs) {
+  for (std::size_t i = 1; i < proofs.size(); ++i) {
+    const TrajectoryCertificate& each = proofs[i];
     if (each.collision != proofs[0].collision || each.t_h != proofs[0].t_h ||
         each.knots.rows() != proofs[0].knots.rows() ||
         each.knots.cols() != proofs[0].knots.cols() ||

@@ -12,7 +12,7 @@ namespace maxwrench {
 using ExtendedVector = VectorX<Extended>;
 
 /// More control points than this take too much time and memory for a box.
-inline constexpr Eigen::Index kMostControlPoints = 20'000;
+inline constexpr Eigen::Index kMostControlPoints = 40'000;
 
 /// How coordinates of theta_r enter a `MultiAffine`.
 struct Coordinates {

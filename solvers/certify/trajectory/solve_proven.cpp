@@ -120,16 +120,18 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
   proof_options.solver = "";
   proof_options.search = "";
   TrajectoryProof proof;
+  Answer found;
   long evaluations = 0;  // of the searches before this one
   double wall_s = 0;     // likewise
   for (int search = 1; search <= kMostSearches; ++search) {
-    const Answer found = solve(tight, options);
-    if (!found.has_value()) {
-      if (search > 1) return proof;  // nothing keeps the tighter limits
-      static_cast<Verdict&>(proof) = found;
-      proof.answer = found;
+    Answer next = solve(tight, options);
+    if (!next.has_value()) {
+      if (search > 1) break;  // nothing keeps the tighter limits
+      static_cast<Verdict&>(proof) = next;
+      proof.answer = std::move(next);
       return proof;
     }
+    found = std::move(next);
     proof = certify_trajectory(task, found.trajectory.knots, proof_options, how);
     take_search(found, proof.answer);
     proof.answer.evaluations += evaluations;
@@ -141,7 +143,19 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
       break;
     }
   }
-  return proof;
+  // A posture that is held can be better than what keeps the tighter limits.
+  const Eigen::MatrixXd held = task.theta_r_default.transpose().replicate(task.motion->k, 1);
+  const Answer at_rest = evaluate(task, held, proof_options);
+  const bool proven = proof.status == Status::kProven;
+  if (!at_rest.has_value() || (proven && !(at_rest.beta() > proof.guaranteed))) return proof;
+  TrajectoryProof still = certify_trajectory(task, held, proof_options, how);
+  if (still.status != Status::kProven || (proven && !(still.guaranteed > proof.guaranteed))) {
+    return proof;
+  }
+  take_search(found, still.answer);
+  still.answer.evaluations = proof.answer.evaluations;
+  still.answer.wall_s = proof.answer.wall_s;
+  return still;
 }
 
 }  // namespace maxwrench

@@ -137,6 +137,23 @@ TEST(TrajectoryProof, SLOW_SolvesAProvenImpulse) {
   EXPECT_GT(proof.guaranteed, 39.7);
 }
 
+/// In 1.2 s no effort rates follow what the search finds between its instants. The start is a
+/// static optimum, held with 35.4083 N m, which a posture at rest exerts at every instant.
+TEST(TrajectoryProof, SLOW_ProvesTheHeldPostureIfItIsBetter) {
+  Problem problem = load_problem("uvms/valve_impulse");
+  problem.motion->T = 1.2;
+  problem.motion->k = 6;
+  problem.motion->t_h = 4;
+  Options options;
+  options.budget = 300;
+  const TrajectoryProof proof = solve_proven(problem, options);
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  EXPECT_EQ(proof.answer.status, Status::kBestFound);
+  EXPECT_GE(proof.guaranteed, 35.4083 * (1 - 1e-4));
+  EXPECT_GE(proof.answer.beta(), proof.guaranteed);
+  EXPECT_GE(proof.answer.evaluations, 300);
+}
+
 TEST(TrajectoryProof, RejectsOtherTasksAndChoices) {
   const Problem problem = load_problem("planar/trajectory");
   const Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);

@@ -4,6 +4,8 @@
 
 #include <fstream>
 #include <functional>
+#include <limits>
+#include <vector>
 
 #include "lib/trajectory/motion_evaluator.h"
 #include "maxwrench/load.h"
@@ -99,6 +101,14 @@ TEST(VerifyTrajectory, RejectsTamperedCertificates) {
     all[i](proof);
     EXPECT_NE(rejection(turn(), proof), "") << i;
   }
+}
+
+/// NaN differs from itself, but a task without a list has one trajectory only.
+TEST(VerifyTrajectory, SaysThatANumberIsNoneOfATaskWithoutList) {
+  TrajectoryCertificate wrong = turn_proof();
+  wrong.knots(1, 0) = std::numeric_limits<double>::quiet_NaN();
+  const TaskVerification result = verify(turn(), std::vector<TrajectoryCertificate>{wrong}, 2);
+  EXPECT_EQ(result.rejection, "a number is not finite or is too large");
 }
 
 TEST(VerifyTrajectory, RejectsTamperedImpulses) {
