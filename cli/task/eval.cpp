@@ -86,7 +86,8 @@ int report_scenarios(const EvalOptions& options, const Answer& answer) {
   return answer.answered() ? kAnswered : kOtherStatus;
 }
 
-int eval(const EvalOptions& options) {
+int eval(EvalOptions& options) {
+  options.explain.take_share(options.source.at);
   require_apart(options.source.inputs(options.choice.problem),
                 {{"--write", options.write}, {"--models", options.models}});
   Problem problem = options.source.load(options.choice.problem, true);

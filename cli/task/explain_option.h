@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <optional>
+#include <string>
 
 namespace maxwrench {
 
@@ -13,6 +14,8 @@ struct ExplainOption {
   std::optional<double> share;
 
   void add(CLI::App& app);
+  /// With --explain, takes the share from `--at SHARE`, which is a pose otherwise.
+  void take_share(std::optional<std::string>& at);
   /// Prints an answer as `report` does, with what binds if that is asked for; returns its exit
   /// status.
   int report(const Answer& answer, bool json) const;

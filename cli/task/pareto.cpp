@@ -63,7 +63,7 @@ void add_pareto(CLI::App& app, int& exit_status) {
   options->add_threads(command);
   options->add_json(command);
   command
-      .add_option("--against", options->against,
+      .add_option("others,--against", options->against,
                   "the other task, or several for one posture that suits all")
       ->required();
   command.add_option("--against-measure", options->against_measure,

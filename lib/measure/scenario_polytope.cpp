@@ -5,6 +5,7 @@
 #include <optional>
 #include <stdexcept>
 
+#include "lib/scenario/ball_across.h"
 #include "lib/scenario/scenario_facets.h"
 #include "lib/scenario/scenario_program.h"
 #include "maxwrench/measure.h"
@@ -30,8 +31,12 @@ class ScenarioPolytope : public Measure {
     const bool one_column = wrench == Wrench::kPure || list_.F.cols() == 0;
     if (facets && one_column && ScenarioFacets::supports(problem)) facets_.emplace(problem);
     if (list_.ball && !facets_) {
-      throw std::invalid_argument(
-          "wrench: got a ball, expected solver facets and pure wrenches, or a set in its place");
+      if (!BallAcross::supports(list_)) {
+        throw std::invalid_argument(
+            "wrench: got a ball, expected solver facets and pure wrenches, or a ball of one or two "
+            "axes alone, or a set in its place");
+      }
+      ball_.emplace(problem, wrench);
     }
     each_.cases.resize(list_.loads.size());
   }
@@ -40,8 +45,9 @@ class ScenarioPolytope : public Measure {
                             Capability& capability) override {
     at_.set(posture);
     iterations_ = 0;
-    const Verdict verdict =
-        facets_ ? by_facets(efforts, capability) : one_by_one(efforts, capability);
+    const Verdict verdict = facets_ ? by_facets(efforts, capability)
+                            : ball_ ? by_edges(efforts, capability)
+                                    : one_by_one(efforts, capability);
     if (verdict.status != Status::kOptimal) capability.clear();
     capability.iterations = iterations_;
     capability.conclude(verdict.status, verdict.reason.c_str());
@@ -197,6 +203,59 @@ class ScenarioPolytope : public Measure {
     return finish(true, efforts, capability);
   }
 
+  // A ball by the edges of the polygon in its plane.
+
+  /// A scenario after the other. Those with `hold` are part of the others, which contain zero.
+  Verdict by_edges(bool efforts, Capability& capability) {
+    Verdict ended;
+    double high = kInfinity;
+    each_.wrench = each_.limits = 0;
+    std::fill(each_.cases.begin(), each_.cases.end(), 0);
+    do {
+      if (list_.wrenches[static_cast<std::size_t>(each_.wrench)].hold) continue;
+      const Status status = ball_->find(at_, each_, high, *solver_);
+      iterations_ += ball_->iterations;
+      if (status == Status::kUnbounded) continue;
+      if (status == Status::kInfeasible) {
+        ended.conclude(status, why_infeasible(kInfinity, efforts));
+        return ended;
+      }
+      if (status != Status::kOptimal) {
+        ended.conclude(status, ball_->result.reason.str());
+        return ended;
+      }
+      if (ball_->high < -allowed(kEndTolerance, ball_->high)) return leaves_out_zero(efforts);
+      if (!(ball_->high < high)) continue;
+      high = ball_->high;
+      capability.decides = each_;
+    } while (next(list_, each_));
+    if (high == kInfinity) {
+      ended.conclude(Status::kUnbounded, "the wrench does not load any actuator");
+      return ended;
+    }
+    if (solve(capability.decides, 1, kInfinity, efforts, capability) != Status::kOptimal) {
+      return unlike("the wrench that decides has no value when it is solved again");
+    }
+    if (!(std::abs(capability.beta - high) <= allowed(kAgreement, high))) {
+      return unlike("the wrench that decides has another value when it is solved again");
+    }
+    return finish(true, efforts, capability);
+  }
+
+  /// Confirms that the wrench zero of the ball balances nothing.
+  Verdict leaves_out_zero(bool efforts) {
+    const std::string name = describe(list_, each_);
+    each_.c.setZero();
+    if (solve(each_, 1, kInfinity, efforts, trial_) != Status::kInfeasible) {
+      return unlike("a ball leaves out zero, but some efforts balance it");
+    }
+    Verdict verdict;
+    verdict.conclude(
+        Status::kInfeasible,
+        "no actuator efforts balance the posture without a wrench of the ball: " + name);
+    return verdict;
+  }
+
   std::string why_infeasible(double most, bool efforts) const {
     if (most == kInfinity) {
       return "no actuator efforts balance the posture" +
@@ -232,6 +291,7 @@ class ScenarioPolytope : public Measure {
   ScenarioPosture at_;
   ScenarioProgram program_;
   std::optional<ScenarioFacets> facets_;
+  std::optional<BallAcross> ball_;
   Capability trial_;
   ScenarioChoice each_;
   int iterations_ = 0;

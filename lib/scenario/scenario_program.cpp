@@ -1,5 +1,7 @@
 #include "lib/scenario/scenario_program.h"
 
+#include <algorithm>
+
 #include "lib/math/rotated.h"
 #include "lib/scenario/static_load.h"
 #include "maxwrench/posture.h"
@@ -61,9 +63,12 @@ void ScenarioPosture::fill_loads(const LoadGroup& cases, CurrentCases& currents,
   }
 }
 
-ScenarioProgram::ScenarioProgram(const Problem& problem, Wrench wrench)
-    : problem_(problem), F_(wrench == Wrench::kAny ? problem.scenarios.F : Matrix6Xd(6, 0)) {
-  const Eigen::Index k = 1 + F_.cols(), n = problem.robot.velocities();
+ScenarioProgram::ScenarioProgram(const Problem& problem, Wrench wrench, int axes)
+    : problem_(problem),
+      first_(std::max(axes, 1)),
+      axes_(axes > 0),
+      F_(wrench == Wrench::kAny ? problem.scenarios.F : Matrix6Xd(6, 0)) {
+  const Eigen::Index k = first_ + F_.cols(), n = problem.robot.velocities();
   program_.W.setZero(6, k);
   program_.C_2.resize(6, 0);
   program_.c_w = Eigen::VectorXd::Unit(k, 0);
@@ -77,16 +82,29 @@ const WrenchProgram& ScenarioProgram::write(ScenarioPosture& at, const ScenarioC
   const ScenarioList& list = problem_.scenarios;
   const Posture& posture = at.posture();
   program_.actuation = &list.limits[static_cast<std::size_t>(choice.limits)].actuation;
-  program_.W.col(0) = choice.c;
+  for (Eigen::Index i = 0; i < first_; ++i) {
+    program_.W.col(i) = axes_ ? at.ball_axis(i) : choice.c;
+  }
   for (Eigen::Index i = 0; i < F_.cols(); ++i) {
-    program_.W.col(1 + i) = rotated(posture.turn, Vector6d(F_.col(i)));
+    program_.W.col(first_ + i) = rotated(posture.turn, Vector6d(F_.col(i)));
   }
   program_.JtW.noalias() = posture.J.transpose().lazyProduct(program_.W);
   program_.tau_d = posture.tau_d;
   for (std::size_t group = 0; group < choice.cases.size(); ++group) {
     at.add_load(list.loads[group][static_cast<std::size_t>(choice.cases[group])], program_.tau_d);
   }
+  if (axes_) cut(kInfinity);
   return aim(1);
+}
+
+const WrenchProgram& ScenarioProgram::aim_along(const Eigen::Vector2d& d) {
+  program_.c_w.head(first_) = d.head(first_);
+  return program_;
+}
+
+void ScenarioProgram::cut(double most) {
+  program_.w_max.head(first_).setConstant(most);
+  program_.w_min.head(first_).setConstant(-most);
 }
 
 const WrenchProgram& ScenarioProgram::aim(double sign, double most) {

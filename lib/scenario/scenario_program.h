@@ -37,18 +37,28 @@ class ScenarioPosture final : public ScenarioForces {
 };
 
 /// The wrench program of one scenario: W = [c_s] or [c_s, F], where the first coordinate is beta.
+/// Or W = [r E, F] with the axes of a ball of radius r, whose coordinates z are then the first
+/// ones.
 class ScenarioProgram {
  public:
-  ScenarioProgram(const Problem& problem, Wrench wrench);
-  ScenarioProgram(const Problem&& problem, Wrench wrench) = delete;
+  /// `axes` is the number of axes of the ball; 0: one wrench.
+  ScenarioProgram(const Problem& problem, Wrench wrench, int axes = 0);
+  ScenarioProgram(const Problem&& problem, Wrench wrench, int axes = 0) = delete;
 
-  /// Sets the program to a scenario, whose wrench is `choice.c`, at a posture. Returns it.
+  /// Sets the program to a scenario, whose wrench is `choice.c` unless it has axes, at a posture.
+  /// Returns it.
   const WrenchProgram& write(ScenarioPosture& at, const ScenarioChoice& choice);
   /// The same program, to be maximised (1) or minimised (-1), with beta at most `most`.
   const WrenchProgram& aim(double sign, double most = kInfinity);
+  /// The same program with axes, to be maximised along d'z.
+  const WrenchProgram& aim_along(const Eigen::Vector2d& d);
+  /// Limits the coordinates of the axes to [-most, most], until `write` is called again.
+  void cut(double most);
 
  private:
   const Problem& problem_;
+  Eigen::Index first_;  ///< number of columns before F
+  bool axes_;           ///< whether these are the axes of the ball
   WrenchProgram program_;
   Matrix6Xd F_;
 };

@@ -111,6 +111,15 @@ void check_loss(const LossSpec& loss) {
   }
 }
 
+/// Whether a loss leaves none of several thrusters: nothing would move the robot. A single thruster
+/// may be lost, to see what it is worth.
+bool leaves_no_thruster(const Lost& lost, const Robot& robot) {
+  const int thrusters = thrusters_of(robot);
+  const auto dead =
+      std::count_if(lost.begin(), lost.end(), [=](int actuator) { return actuator < thrusters; });
+  return thrusters > 1 && dead == thrusters;
+}
+
 /// What is lost together, beginning with nothing. Sets that occur twice count once.
 std::vector<Lost> lost_sets(const LossSpec& loss, const Robot& robot) {
   check_loss(loss);
@@ -119,7 +128,12 @@ std::vector<Lost> lost_sets(const LossSpec& loss, const Robot& robot) {
     if (std::find(sets.begin(), sets.end(), lost) == sets.end()) sets.push_back(std::move(lost));
   };
   for (std::size_t i = 0; i < loss.cases.size(); ++i) {
-    add(actuators_named(fmt::format("loss.cases[{}]", i), loss.cases[i], robot));
+    const std::string key = fmt::format("loss.cases[{}]", i);
+    Lost lost = actuators_named(key, loss.cases[i], robot);
+    if (leaves_no_thruster(lost, robot)) {
+      throw BadValue(key, shown(loss.cases[i]), "a loss that leaves a thruster alive");
+    }
+    add(std::move(lost));
   }
   if (!loss.cases.empty()) return sets;
   const Lost actuators = actuators_named("loss.actuators", loss.actuators, robot);
@@ -128,7 +142,13 @@ std::vector<Lost> lost_sets(const LossSpec& loss, const Robot& robot) {
     throw BadValue("loss.any", fmt::format("{}", loss.any),
                    fmt::format("a whole number from 1 to {}, the number of actuators", n));
   }
-  for (Lost& lost : sets_of(actuators, loss.any)) sets.push_back(std::move(lost));
+  for (Lost& lost : sets_of(actuators, loss.any)) {
+    if (leaves_no_thruster(lost, robot)) {
+      throw BadValue("loss.any", fmt::format("{}", loss.any),
+                     fmt::format("less than {}, to leave a thruster alive", lost.size()));
+    }
+    sets.push_back(std::move(lost));
+  }
   return sets;
 }
 

@@ -10,6 +10,7 @@
 
 #include "lib/measure/task_dynamics.h"
 #include "lib/robot/gears.h"
+#include "lib/scenario/ball_across.h"
 #include "lib/search/facet_program.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/measure.h"
@@ -26,6 +27,11 @@ bool supports(const WrenchSolverEntry& solver, const Problem& problem, Wrench wr
   return !solver.needs_facets || problem.robot.actuation.has_facets;
 }
 
+/// Whether the task has a ball of wrenches that the facets of {B u} solve.
+bool ball_by_facets(const Problem& problem, Wrench wrench) {
+  return problem.scenarios.ball && wrench == Wrench::kPure && problem.robot.actuation.has_facets;
+}
+
 /// The lower-level solvers that support a measure and a wrench; a null entry for a closed form.
 std::vector<const WrenchSolverEntry*> solvers_for(const MeasureEntry& measure,
                                                   const Problem& problem, Wrench wrench) {
@@ -33,7 +39,9 @@ std::vector<const WrenchSolverEntry*> solvers_for(const MeasureEntry& measure,
   if (!problem.scenarios.empty() && measure.name != Case().measure) return {};
   if (!measure.needs_solver) return {nullptr};
   if (problem.scenarios.payload && wrench == Wrench::kAny) return {};
-  const bool facets_only = problem.scenarios.ball.has_value();
+  const bool facets_only = ball_by_facets(problem, wrench);
+  const ScenarioList& list = problem.scenarios;
+  if (list.ball && !facets_only && !BallAcross::supports(list)) return {};
   std::vector<const WrenchSolverEntry*> supported;
   for (const WrenchSolverEntry& solver : wrench_solvers()) {
     if (facets_only && !solver.needs_facets) continue;
@@ -111,8 +119,8 @@ void require_scenario_case(const Problem& problem, const MeasureEntry& measure, 
         problem.name));
   }
   throw std::invalid_argument(fmt::format(
-      "wrench: got a ball, expected pure wrenches and actuators with few facets, or wrench.set in "
-      "its place ({})",
+      "wrench: got a ball, expected pure wrenches and actuators with few facets, or a ball of one "
+      "or two axes alone, or wrench.set in its place ({})",
       problem.name));
 }
 
@@ -142,7 +150,7 @@ Method resolve_static(const Problem& problem, const Case& c) {
   method.unit = lower.unit;
   method.make_measure = lower.make_measure;
   if (method.search) method.trajectory_solver = trajectory_solver_of(problem, method.choice);
-  const bool by_facets = problem.scenarios.ball.has_value();
+  const bool by_facets = ball_by_facets(problem, c.wrench);
   method.make_beta_linf =
       measure_maker(problem, find_measure("linf_polytope"),
                     &find_wrench_solver(by_facets ? "facets" : "simplex"), c.wrench);

@@ -1,6 +1,8 @@
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 
+#include "lib/scenario/ball_across.h"
 #include "lib/scenario/scenario_facets.h"
 #include "lib/scenario/scenario_list.h"
 #include "lib/scenario/scenario_program.h"
@@ -26,10 +28,14 @@ class Ends {
         facets_((wrench == Wrench::kPure || list_.F.cols() == 0) &&
                 ScenarioFacets::supports(problem)) {
     at_.set(posture);
+    if (list_.ball && !facets_) ball_.emplace(problem, wrench);
   }
 
   ScenarioEnds of(const ScenarioChoice& choice) {
-    ScenarioEnds ends = facets_ ? by_facets(choice) : by_programs(choice);
+    const bool in_ball = ball_ && !list_.wrenches[static_cast<std::size_t>(choice.wrench)].hold;
+    ScenarioEnds ends = facets_   ? by_facets(choice)
+                        : in_ball ? by_edges(choice)
+                                  : by_programs(choice);
     ends.name = describe(list_, choice);
     return ends;
   }
@@ -50,6 +56,15 @@ class Ends {
     facets.scan(at_);
     return {"", facets.low, facets.high,
             !facets.missed && facets.low <= facets.high + 1e-9 * (1 + std::abs(facets.high))};
+  }
+
+  ScenarioEnds by_edges(ScenarioChoice choice) {
+    const Status status = ball_->find(at_, choice, kInfinity, *solver_);
+    ScenarioEnds ends{"", 0, kInfinity, status == Status::kUnbounded};
+    if (status != Status::kOptimal) return ends;
+    ends.high = ball_->high;
+    ends.held = ends.high >= -kEndTolerance * (1 + std::abs(ends.high));
+    return ends;
   }
 
   ScenarioEnds by_programs(const ScenarioChoice& choice) {
@@ -75,6 +90,7 @@ class Ends {
   ScenarioProgram program_;
   std::unique_ptr<WrenchSolver> solver_;
   bool facets_;
+  std::optional<BallAcross> ball_;
   int limits_ = -1;
   Capability result_;
 };

@@ -55,6 +55,17 @@ Problem limited(const Problem& task, const ScenarioLimits& limits) {
   return changed;
 }
 
+/// A joint that its brake holds rests where it is, so the search does not move it.
+void hold_locked_joints(const ScenarioLimits& limits, const Eigen::VectorXd& theta_r,
+                        Problem& task) {
+  for (std::size_t i = 0; i < task.redundant.size(); ++i) {
+    const Joint& joint = task.robot.joints[static_cast<std::size_t>(task.redundant[i])];
+    if (limits.name.find(joint.name + " locked") == std::string::npos) continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    task.theta_r_min[k] = task.theta_r_max[k] = task.theta_r_default[k] = theta_r[k];
+  }
+}
+
 class Comparison {
  public:
   Comparison(const Eigen::VectorXd& theta_r, const Options& options)
@@ -110,7 +121,9 @@ Sensitivity sensitivity(const Problem& task, const Eigen::VectorXd& theta_r,
   Comparison comparison(theta_r, options);
   Sensitivity result;
   for (const ScenarioLimits& each : limits) {
-    result.effects.push_back(comparison.compare(each.name, limited(task, each)));
+    Problem with_loss = limited(task, each);
+    hold_locked_joints(each, theta_r, with_loss);
+    result.effects.push_back(comparison.compare(each.name, with_loss));
   }
   Problem all = task;
   all.scenarios = list_of(task);

@@ -39,6 +39,28 @@ TEST(Sensitivity, SLOW_OfOneThrusterIsThatOfTheIndependentModel) {
   EXPECT_LT(text.find("front_right_vertical dead"), text.find("nothing"));  // worst first
 }
 
+/// A joint that its brake holds rests where it is. At a given posture this costs nothing: all
+/// efforts of the intact robot are still possible.
+TEST(Sensitivity, LockedJointsRest) {
+  const Problem task = load_problem("uvms/valve");
+  Eigen::VectorXd u_min = task.robot.actuation.u_min, u_max = task.robot.actuation.u_max;
+  u_min[9] = -kInfinity;  // after eight thrusters the second joint
+  u_max[9] = kInfinity;
+  Options options;
+  options.search = "facet_sqp+cmaes";
+  options.budget = 2000;
+  const Sensitivity result = sensitivity(
+      task, task.theta_r_default,
+      {{"q2_shoulder_pitch locked", with_limits(task.robot.actuation, u_min, u_max), true}},
+      options);
+  const LossEffect& locked = result.effects[0];
+  ASSERT_TRUE(locked.best.has_value());
+  EXPECT_EQ(locked.best.posture.theta_r[1], task.theta_r_default[1]);
+  EXPECT_NE(locked.best.posture.theta_r[0], task.theta_r_default[0]);
+  EXPECT_GE(locked.at_posture.beta(), 9 - 1e-9);
+  EXPECT_GT(locked.best.beta(), locked.at_posture.beta());
+}
+
 TEST(Sensitivity, RejectsOtherTasks) {
   for (const char* name : {"uvms/valve_trajectory", "planar/two_arms"}) {
     const Problem task = load_problem(name);
