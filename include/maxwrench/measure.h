@@ -117,7 +117,8 @@ std::unique_ptr<Measure> make_linf_polytope(const Robot& robot,
 /// @param wrench   the allowed wrenches
 /// @param solver   solves wrench programs
 /// @param facets   whether to scan facets; ignored if the task does not permit it
-/// @throws std::invalid_argument if the task has a ball and facets are not scanned.
+/// @throws std::invalid_argument if the task has a ball, facets are not scanned, and the ball has
+///         three axes or stands beside `c` or `set`.
 std::unique_ptr<Measure> make_scenario_polytope(const Problem& problem, Wrench wrench,
                                                 std::unique_ptr<WrenchSolver> solver, bool facets);
 

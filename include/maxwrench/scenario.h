@@ -48,6 +48,7 @@ struct ScenarioLimits {
   Zonotope actuation;
   /// Whether a lost joint has a brake or friction: its effort is within limits, but no command.
   bool resists = false;
+  std::vector<int> locked = {};  ///< indices of the joints that their brakes hold
 };
 
 /// One wrench of a task.

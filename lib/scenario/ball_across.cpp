@@ -65,7 +65,8 @@ Status BallAcross::find_in_plane(double most, WrenchSolver& solver) {
   int programs = 0;
   for (edge_.start(); edge_.asks();) {
     if (edge_.inner() >= most) break;
-    if (++programs > kMostPrograms) return result.conclude(Status::kNumericalError, "too many edges");
+    if (++programs > kMostPrograms)
+      return result.conclude(Status::kNumericalError, "too many edges");
     Eigen::Vector2d point = Eigen::Vector2d::Zero();
     const Status status = support(edge_.direction(), solver, point);
     if (status == Status::kUnbounded && cut == kInfinity) {

@@ -159,6 +159,7 @@ std::string lose(const LossSpec& loss, const Robot& robot, int actuator, Actuato
   limits.u_min[actuator] = 0 - left;  // not -0
   limits.u_max[actuator] = left;
   limits.resists = limits.resists || left > 0;
+  if (joint && loss.joints_lock) limits.locked.push_back(actuator - thrusters_of(robot));
   const char* how = !joint ? "dead" : loss.joints_lock ? "locked" : "limp";
   return fmt::format("{} {}", name_of_actuator(robot, actuator), how);
 }
@@ -242,8 +243,8 @@ std::vector<ScenarioLimits> limits_of_each_loss(LossSpec loss, const Robot& robo
   loss.any = 1;
   std::vector<ScenarioLimits> limits;
   for (const ActuatorLimits& each : actuator_limits(loss, {}, robot)) {
-    limits.push_back(
-        {each.name, with_limits(robot.actuation, each.u_min, each.u_max), each.resists});
+    limits.push_back({each.name, with_limits(robot.actuation, each.u_min, each.u_max), each.resists,
+                      each.locked});
   }
   return limits;
 }

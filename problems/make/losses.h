@@ -13,6 +13,7 @@ struct ActuatorLimits {
   std::string name;  ///< as `ScenarioLimits::name`
   Eigen::VectorXd u_min, u_max;
   bool resists = false;  ///< as `ScenarioLimits::resists`
+  std::vector<int> locked = {};
 };
 
 /// The limits of a robot with all its actuators, then those of each loss, in each case with the

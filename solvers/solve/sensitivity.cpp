@@ -59,8 +59,8 @@ Problem limited(const Problem& task, const ScenarioLimits& limits) {
 void hold_locked_joints(const ScenarioLimits& limits, const Eigen::VectorXd& theta_r,
                         Problem& task) {
   for (std::size_t i = 0; i < task.redundant.size(); ++i) {
-    const Joint& joint = task.robot.joints[static_cast<std::size_t>(task.redundant[i])];
-    if (limits.name.find(joint.name + " locked") == std::string::npos) continue;
+    const auto& locked = limits.locked;
+    if (std::find(locked.begin(), locked.end(), task.redundant[i]) == locked.end()) continue;
     const auto k = static_cast<Eigen::Index>(i);
     task.theta_r_min[k] = task.theta_r_max[k] = task.theta_r_default[k] = theta_r[k];
   }

@@ -41,13 +41,14 @@ TEST(NearestEdge, OfKnownPolygons) {
 /// origin have the value 0.
 TEST(NearestEdge, OfSetsWithoutTheOriginOrWithoutAnArea) {
   NearestEdge edge;
-  for (const Corners& outside : {Corners{{1, 1}, {2, 1}, {1, 3}}, Corners{{1, 1}, {2, 2}},
-                                 Corners{{0, 1}, {0, 4}}, Corners{{3, -1}}, Corners{{1, 2}, {2, 1}}}) {
+  for (const Corners& outside :
+       {Corners{{1, 1}, {2, 1}, {1, 3}}, Corners{{1, 1}, {2, 2}}, Corners{{0, 1}, {0, 4}},
+        Corners{{3, -1}}, Corners{{1, 2}, {2, 1}}}) {
     ask_about(outside, edge);
     EXPECT_LT(edge.value(), -0.1);
   }
-  for (const Corners& through :
-       {Corners{{-1, -1}, {2, 2}}, Corners{{0, 0}}, Corners{{0, -1}, {0, 4}}, Corners{{0, 0}, {1, 3}}}) {
+  for (const Corners& through : {Corners{{-1, -1}, {2, 2}}, Corners{{0, 0}},
+                                 Corners{{0, -1}, {0, 4}}, Corners{{0, 0}, {1, 3}}}) {
     ask_about(through, edge);
     EXPECT_NEAR(edge.value(), 0, 1e-15);
   }

@@ -38,9 +38,10 @@ TEST(BallAcross, HasTheReferenceValueByAllSolvers) {
 /// No direction of the ball has less, with the same components free, and the critical one has the
 /// value.
 TEST(BallAcross, IsTheWorstOfItsWrenches) {
-  const std::string tables = "[uncertainty]\ntrim = 0.2\ncurrent = { speed = 0.2, directions = 3 }\n"
-                             "[loss]\ncases = [['front_left_vertical'], ['q2_shoulder_pitch']]\n"
-                             "friction = 0.3\n";
+  const std::string tables =
+      "[uncertainty]\ntrim = 0.2\ncurrent = { speed = 0.2, directions = 3 }\n"
+      "[loss]\ncases = [['front_left_vertical'], ['q2_shoulder_pitch']]\n"
+      "friction = 0.3\n";
   struct Ball {
     const char* wrench;
     double radius;

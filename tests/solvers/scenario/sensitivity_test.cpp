@@ -51,8 +51,7 @@ TEST(Sensitivity, LockedJointsRest) {
   options.budget = 2000;
   const Sensitivity result = sensitivity(
       task, task.theta_r_default,
-      {{"q2_shoulder_pitch locked", with_limits(task.robot.actuation, u_min, u_max), true}},
-      options);
+      {{"shoulder", with_limits(task.robot.actuation, u_min, u_max), true, {1}}}, options);
   const LossEffect& locked = result.effects[0];
   ASSERT_TRUE(locked.best.has_value());
   EXPECT_EQ(locked.best.posture.theta_r[1], task.theta_r_default[1]);
