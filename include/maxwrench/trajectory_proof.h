@@ -70,7 +70,7 @@ TrajectoryProof certify_trajectory(const Problem& task, const Eigen::MatrixXd& k
 /// repeated with limits of theta_r and of its rates that are tighter by the excess. If more is
 /// proven of the default posture, held throughout, the proof is that of this trajectory.
 ///
-/// @return the last proof; its answer is that of the search
+/// @return the proof; its answer counts the evaluations and the time of all searches
 TrajectoryProof solve_proven(const Problem& task, const Options& options = {},
                              const TrajectoryProofOptions& how = {});
 

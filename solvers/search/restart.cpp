@@ -10,7 +10,6 @@
 #include "maxwrench/objective.h"
 #include "maxwrench/strategies.h"
 #include "solvers/search/composition.h"
-#include "solvers/search/makers.h"
 #include "solvers/search/probe.h"
 
 namespace maxwrench {
@@ -88,7 +87,11 @@ class Restart final : public Search {
   /// The search of a run: over a line, one run continues from the peaks of a grid, so that a peak
   /// of half a percent of the line is found whatever the random starts are.
   std::unique_ptr<Search> search_of(long run, const SearchOptions& whole, const Box& box) const {
-    static const SearchEntry grid{"grid", "regular grid", false, make_grid, false, kGridShare};
+    static const SearchEntry grid = [] {
+      SearchEntry entry = *find_search("grid").stages.front();
+      entry.budget_fraction = kGridShare;
+      return entry;
+    }();
     if (run != kGridRun || box.free() != 1 || !whole.starts.empty()) return of_.make();
     std::vector<const SearchEntry*> stages{&grid};
     for (const SearchEntry* stage : of_.stages) {

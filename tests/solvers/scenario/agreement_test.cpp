@@ -9,6 +9,7 @@
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/solve/method.h"
+#include "tests/solvers/scenario/gradients.h"
 #include "tests/support/scenario_task.h"
 
 namespace maxwrench {
@@ -81,42 +82,11 @@ TEST_P(ScenarioAgreement, OfFacetsAndOfSolversOneByOne) {
   EXPECT_LT(infeasible, samples(40));
 }
 
-/// Central differences of the value, at postures where the scenario that decides does not change
-/// between them.
 TEST_P(ScenarioAgreement, OfGradientsAndDifferences) {
-  constexpr double kStep = 1e-6;
   Options options;
   options.check_collision = false;
   Random random(5);
-  int compared = 0;
-  for (int i = 0; compared < 5; ++i) {
-    ASSERT_LT(i, 1000);
-    const Eigen::VectorXd theta_r = random_theta_r(task_, random);
-    const Answer answer = evaluate(task_, theta_r, options);
-    if (answer.status != Status::kOptimal) continue;
-    const std::string decides = describe(task_.scenarios, answer.capability.decides);
-    Eigen::VectorXd difference(theta_r.size());
-    bool smooth = true;
-    for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
-      double sides[2] = {0, 0};
-      for (const int side : {0, 1}) {
-        Eigen::VectorXd moved = theta_r;
-        moved[k] += side == 0 ? kStep : -kStep;
-        const Answer there = evaluate(task_, moved, options);
-        smooth = smooth && there.status == Status::kOptimal &&
-                 describe(task_.scenarios, there.capability.decides) == decides &&
-                 (there.capability.lambda - answer.capability.lambda).norm() <
-                     1e-3 * (1 + answer.capability.lambda.norm());
-        sides[side] = there.beta();
-      }
-      difference[k] = (sides[0] - sides[1]) / (2 * kStep);
-    }
-    if (!smooth) continue;
-    ++compared;
-    const Eigen::VectorXd gradient = answer.trajectory.gradient.transpose();
-    EXPECT_LT((gradient - difference).norm(), 1e-5 * (1 + difference.norm()))
-        << gradient.transpose() << " / " << difference.transpose();
-  }
+  expect_gradients(task_, options, random);
 }
 
 /// The loop of a search allocates nothing after the first call, by facets.

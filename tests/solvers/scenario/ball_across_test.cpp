@@ -5,6 +5,7 @@
 
 #include "maxwrench/sensitivity.h"
 #include "maxwrench/solve.h"
+#include "tests/solvers/scenario/gradients.h"
 #include "tests/support/scenario_task.h"
 
 namespace maxwrench {
@@ -94,37 +95,11 @@ TEST(BallAcross, IsInfeasibleIfZeroIsNotHeld) {
   EXPECT_NE(answer.reason.str().find("payload"), std::string::npos) << answer.reason.str();
 }
 
-/// Central differences, where the direction changes with the posture.
+/// The direction that decides changes with the posture.
 TEST(BallAcross, HasExactGradients) {
-  constexpr double kStep = 1e-6;
   const Problem task = scenario_task(kHorizontal, "[loss]\ncases = [['rear_left_vertical']]\n");
   Random random(8);
-  int compared = 0;
-  for (int i = 0; compared < 5; ++i) {
-    ASSERT_LT(i, 300);
-    const Eigen::VectorXd theta_r = random_theta_r(task, random);
-    const Answer answer = evaluate(task, theta_r, with_any());
-    if (answer.status != Status::kOptimal) continue;
-    Eigen::VectorXd difference(theta_r.size());
-    bool smooth = true;
-    for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
-      double sides[2] = {0, 0};
-      for (const int side : {0, 1}) {
-        Eigen::VectorXd moved = theta_r;
-        moved[k] += side == 0 ? kStep : -kStep;
-        const Answer there = evaluate(task, moved, with_any());
-        smooth = smooth && there.status == Status::kOptimal &&
-                 (there.capability.lambda - answer.capability.lambda).norm() <
-                     1e-3 * (1 + answer.capability.lambda.norm());
-        sides[side] = there.beta();
-      }
-      difference[k] = (sides[0] - sides[1]) / (2 * kStep);
-    }
-    if (!smooth) continue;
-    ++compared;
-    const Eigen::VectorXd gradient = answer.trajectory.gradient.transpose();
-    EXPECT_LT((gradient - difference).norm(), 1e-5 * (1 + difference.norm()));
-  }
+  expect_gradients(task, with_any(), random);
 }
 
 TEST(BallAcross, RejectsOtherBalls) {
