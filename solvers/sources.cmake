@@ -36,7 +36,7 @@ set(maxwrench_solvers_sources
   wrench_set/boundary.cpp wrench_set/directions.cpp wrench_set/ellipsoid.cpp wrench_set/frame.cpp wrench_set/polytope.cpp
   wrench_set/support.cpp
   margin/instant_scan.cpp margin/margin_text.cpp margin/motion_margin.cpp
-  search/gradient_projection.cpp search/mpc.cpp search/mpc_window.cpp search/path_plan.cpp search/projected_flow.cpp
+  search/gradient_projection.cpp search/linear_steps.cpp search/mpc.cpp search/mpc_window.cpp search/path_plan.cpp search/projected_flow.cpp
   search/dp.cpp search/dp_grid.cpp search/dp_level.cpp search/dp_motion.cpp
   solve/scenario_values.cpp solve/too_weak.cpp
   certify/trajectory/instant_bound.cpp certify/trajectory/instant_objective.cpp certify/trajectory/instant_ranges.cpp

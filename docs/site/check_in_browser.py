@@ -31,6 +31,8 @@ SEARCHES = {
     "Python install": "docs/install",
     "certificate verify": "docs/algorithms/certificates",
     "from_urdf": "reference/python/tasks_and_robots",
+    "Ctrl-C": "docs/questions",
+    "unit of beta": "docs/questions",
 }
 WIDTHS = [1280, 390]
 OF_THE_COMMAND = {"gallery", "report"}  # folders of pages that have tests of their own

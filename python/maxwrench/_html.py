@@ -224,7 +224,7 @@ def _limit(limit):
     """A limit with its rate and, where they are known, what more of it gives and where the rate holds."""
     text = f"at {limit.limit:.4g} {limit.unit}, rate {limit.rate:.5g}"
     if np.isfinite(limit.gain):
-        text += f", 10 % more gives {limit.gain:.5g}"
+        text += f", 10 % more adds {limit.gain:.5g}"
     if not np.isnan(limit.up):
         text += f", holds from {limit.limit - limit.down:.5g} to {limit.limit + limit.up:.5g}"
     return text

@@ -18,10 +18,10 @@ std::string in_words(std::vector<std::string> names) {
   return names.empty() ? last : fmt::format("{} and {}", fmt::join(names, ", "), last);
 }
 
-/// What 10 % more of the limit that gives most would give.
+/// What 10 % more of the limit that adds most would add.
 std::string more_of(const LimitRate& limit, double gain, const std::string& unit) {
-  if (!(gain > 0)) return "10 % more of one limit alone gives nothing\n";
-  return fmt::format("10 % more of {} gives {:.5f} {}\n", limit.name, gain, unit);
+  if (!(gain > 0)) return "10 % more of one limit alone adds nothing\n";
+  return fmt::format("10 % more of {} adds {:.5f} {}\n", limit.name, gain, unit);
 }
 
 /// The number without the sign of a zero.

@@ -1,11 +1,10 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "lib/trajectory/window_evaluator.h"
+#include "solvers/search/linear_steps.h"
 #include "solvers/search/path_plan.h"
-#include "solvers/trajectory/bordered_facets.h"
 
 namespace maxwrench {
 
@@ -43,10 +42,8 @@ class MpcWindow {
   double evaluate(const Eigen::MatrixXd& P);
   void keep_limits(Eigen::MatrixXd& P) const;
   void move_apart(Eigen::MatrixXd& P);
-  bool solve(double radius, bool coupled, TrajectoryProgram& program);
   void set_bounds(TrajectoryProgram& program, double radius);
   void set_rows(TrajectoryProgram& program, double radius);
-  void add_row(double low, double high);
 
   const Problem& problem_;
   InstantCount& count_;
@@ -55,11 +52,8 @@ class MpcWindow {
   Eigen::MatrixXd P_;
   double value_ = -kInfinity;
   bool stopped_ = false;
-  BorderedFacets facets_;
-  std::unique_ptr<TrajectorySolver> solver_;
-  TrajectorySolution solution_;
-  std::vector<Eigen::Triplet<double>> entries_;
-  std::vector<double> low_, high_;
+  StepRows rows_;
+  StepSolver solver_;
 };
 
 }  // namespace maxwrench

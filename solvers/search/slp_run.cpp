@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "solvers/search/factor_program.h"
-#include "solvers/trajectory/makers.h"
 #if MAXWRENCH_WITH_NLOPT
 #include "solvers/search/row_sqp.h"
 #endif
@@ -14,12 +13,7 @@ namespace {
 
 constexpr double kFirstRadius = 0.1;  // rad or m
 constexpr double kSmallestRadius = 1e-7;
-constexpr double kAccept = 0.05, kShrink = 0.25, kGrow = 0.7;  // shares of the predicted rise
-constexpr double kNearing = 2;           // m per radius: how much nearer bodies may come in a step
-constexpr double kSpare = 1e-9;          // m, added to the margin when knots are moved apart
-constexpr int kApartRounds = 5;          // rounds of moving knots apart
-constexpr double kStepTolerance = 1e-6;  // of a linear program, whose answer is used only as a step
-constexpr double kConverged = 1e-9;      // predicted, relative to 1 + |f|
+constexpr double kConverged = 1e-9;  // predicted, relative to 1 + |f|
 [[maybe_unused]] constexpr int kPolishPoints = 400;
 
 }  // namespace
@@ -29,12 +23,10 @@ SlpRun::SlpRun(const TrajectoryObjective& objective, Candidate start, SearchRun&
     : objective_(objective.copy(objective.counts())),
       trajectories_(objective_->trajectories()),
       run_(run),
-      solver_(make_trajectory_ipm(kStepTolerance)),
       at_(std::move(start)),
       best_(at_),
       guides_(guides || objective.counts() != TrajectoryValue::kAtInstants),
-      radius_(kFirstRadius),
-      reach_(trajectories_.rows().R.cwiseAbs() * Eigen::VectorXd::Ones(at_.theta_r.size())) {
+      trust_(kFirstRadius) {
   if (!alike) return;
   const Eigen::Index r = at_.theta_r.size() / trajectories_.knots();
   shared_ = Eigen::MatrixXd::Identity(r, r).replicate(trajectories_.knots(), 1);
@@ -59,7 +51,7 @@ void SlpRun::optimise(long evaluations) {
     }
     if (run_.ended()) return;
     if (try_step()) program_ = linearize();
-    done_ = done_ || !(radius_ > kSmallestRadius);
+    done_ = done_ || !(trust_.radius() > kSmallestRadius);
   }
 }
 
@@ -86,23 +78,19 @@ bool SlpRun::try_step() {
     done_ = true;
     return false;
   }
-  const double predicted = solution_.value - solution_.price - at_.value;
+  const TrajectorySolution& solution = solver_.solution();
+  const double predicted = solution.value - solution.price - at_.value;
   if (!(predicted > kConverged * (1 + std::abs(at_.value)))) {
     done_ = true;
     return false;
   }
   const bool alike = shared_.size() > 0;
-  const Eigen::VectorXd step = alike ? shared_ * solution_.y : solution_.y;
+  const Eigen::VectorXd step = alike ? shared_ * solution.y : solution.y;
   Eigen::VectorXd trial = inside(at_.theta_r + step);
   if (!alike) trial = apart(std::move(trial));
-  const double size = solution_.y.lpNorm<Eigen::Infinity>();
-  const double value = evaluate(trial), risen = value - at_.value;
-  if (!(risen >= kShrink * predicted)) {
-    radius_ = 0.4 * size;
-  } else if (risen > kGrow * predicted && size > 0.9 * radius_) {
-    radius_ *= 2;
-  }
-  if (!(risen >= kAccept * predicted)) return false;
+  const double value = evaluate(trial);
+  const double size = solution.y.lpNorm<Eigen::Infinity>();
+  if (!trust_.judge(value - at_.value, predicted, size)) return false;
   at_ = {trial, value};
   return true;
 }
@@ -145,8 +133,8 @@ void SlpRun::set_bounds() {
   const Eigen::Index moved = shared_.size() > 0 ? shared_.cols() : size;
   const Eigen::MatrixXd low = (objective_->lower() - at_.theta_r).reshaped(moved, size / moved);
   const Eigen::MatrixXd high = (objective_->upper() - at_.theta_r).reshaped(moved, size / moved);
-  program_->y_min = low.rowwise().maxCoeff().cwiseMax(-radius_);
-  program_->y_max = high.rowwise().minCoeff().cwiseMin(radius_);
+  program_->y_min = low.rowwise().maxCoeff().cwiseMax(-trust_.radius());
+  program_->y_max = high.rowwise().minCoeff().cwiseMin(trust_.radius());
 }
 
 /// Solves for a step. Returns whether there is an answer.
@@ -154,33 +142,9 @@ bool SlpRun::solve() {
   set_bounds();
   set_rows();
   note(at_.theta_r, -kInfinity);
-  solution_.price = 0;
-  const bool by_facets =
-      !coupled_ && BorderedFacets::suits(*program_) && uncoupled_.solve(*program_, solution_);
-  found_.calls.push_back({"slp", by_facets ? "facets" : "ipm", 1});
-  if (by_facets) return true;
-  solver_->solve(*program_, solution_);
-  return solution_.status == Status::kOptimal;
-}
-
-/// Adds low <= R y <= high without the rows that no step of this radius reaches. `reach` sums the
-/// magnitudes of each row.
-void SlpRun::add_rows(const Eigen::SparseMatrix<double>& R, const Eigen::VectorXd& reach,
-                      const Eigen::VectorXd& low, const Eigen::VectorXd& high) {
-  row_of_.assign(static_cast<std::size_t>(R.rows()), -1);
-  for (Eigen::Index i = 0; i < R.rows(); ++i) {
-    if (low[i] < -radius_ * reach[i] && high[i] > radius_ * reach[i]) continue;
-    row_of_[static_cast<std::size_t>(i)] = static_cast<int>(low_.size());
-    // A violation by rounding must not make the program infeasible.
-    low_.push_back(std::min(low[i], 0.0));
-    high_.push_back(std::max(high[i], 0.0));
-  }
-  for (int column = 0; column < R.outerSize(); ++column) {
-    for (Eigen::SparseMatrix<double>::InnerIterator it(R, column); it; ++it) {
-      const int row = row_of_[static_cast<std::size_t>(it.row())];
-      if (row >= 0) entries_.emplace_back(row, it.col(), it.value());
-    }
-  }
+  const bool solved = solver_.solve(*program_, coupled_);
+  found_.calls.push_back({"slp", solver_.by_facets() ? "facets" : "ipm", 1});
+  return solved;
 }
 
 /// Adds the limits of the knots; to first order, those of dependent joints; and the condition that
@@ -190,26 +154,17 @@ void SlpRun::set_rows() {
   const DependentRows& following = trajectories_.dependent_rows();
   const Eigen::VectorXd& x = at_.theta_r;
   const Eigen::Index r = x.size() / trajectories_.knots();
-  const Eigen::VectorXd at = rows.R * x, ones = Eigen::VectorXd::Ones(x.size());
-  entries_.clear();
-  low_.clear();
-  high_.clear();
-  add_rows(rows.R, reach_, rows.r_min - at, rows.r_max - at);
-  add_rows(following.R, following.R.cwiseAbs() * ones, following.r_min - following.at,
-           following.r_max - following.at);
+  const Eigen::VectorXd at = rows.R * x;
+  rows_.clear();
+  rows_.add(rows.R, rows.r_min - at, rows.r_max - at, trust_.radius());
+  rows_.add(following.R, following.r_min - following.at, following.r_max - following.at,
+            trust_.radius());
   for (const NearPair& pair :
-       trajectories_.near_pairs(unstacked(x, trajectories_.knots()), kNearing * radius_)) {
-    for (Eigen::Index j = 0; j < r; ++j) {
-      entries_.emplace_back(low_.size(), pair.knot * r + j, pair.gradient[j]);
-    }
-    low_.push_back(std::min(0.0, -pair.clearance));
-    high_.push_back(kInfinity);
+       trajectories_.near_pairs(unstacked(x, trajectories_.knots()), kNearing * trust_.radius())) {
+    for (Eigen::Index j = 0; j < r; ++j) rows_.add(pair.knot * r + j, pair.gradient[j]);
+    rows_.end_row(-pair.clearance, kInfinity);
   }
-  const auto count = static_cast<Eigen::Index>(low_.size());
-  program_->r_min = Eigen::Map<Eigen::VectorXd>(low_.data(), count);
-  program_->r_max = Eigen::Map<Eigen::VectorXd>(high_.data(), count);
-  program_->R.resize(count, x.size());
-  program_->R.setFromTriplets(entries_.begin(), entries_.end());
+  rows_.move_to(*program_, x.size());
   if (shared_.size() > 0) program_->R = (program_->R * shared_).sparseView();
 }
 

@@ -1,12 +1,11 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
 #include "maxwrench/batch.h"
 #include "maxwrench/trajectory.h"
+#include "solvers/search/linear_steps.h"
 #include "solvers/search/probe.h"
-#include "solvers/trajectory/bordered_facets.h"
 
 namespace maxwrench {
 
@@ -17,8 +16,7 @@ namespace maxwrench {
 ///     radius, the limits and speed limits of the knots, to first order those of dependent joints,
 ///     and no bodies nearer than their margin to first order.
 ///
-/// While neither effort rates nor slacks matter, the program without them is enough
-/// (`BorderedFacets`). A step is accepted if the elastic value, an exact penalty function, rises by
+/// A step is accepted if the elastic value, an exact penalty function, rises by
 /// a share of what the linear program predicted. This share also determines the next radius. Knots
 /// that collide after a step are moved apart.
 class SlpRun {
@@ -65,8 +63,6 @@ class SlpRun {
   bool try_step();
   bool solve();
   void set_bounds();
-  void add_rows(const Eigen::SparseMatrix<double>& R, const Eigen::VectorXd& reach,
-                const Eigen::VectorXd& low, const Eigen::VectorXd& high);
   void set_rows();
   Eigen::VectorXd inside(const Eigen::VectorXd& x) const;
   Eigen::VectorXd apart(Eigen::VectorXd x);
@@ -75,19 +71,14 @@ class SlpRun {
   TrajectoryEvaluator& trajectories_;
   SearchRun& run_;
   Eigen::MatrixXd shared_;  ///< step of one knot -> steps of all; empty: separate steps
-  BorderedFacets uncoupled_;
-  std::unique_ptr<TrajectorySolver> solver_;
+  StepSolver solver_;
   bool coupled_ = true;  ///< at the last point with a value
   Candidate at_, best_;
   bool guides_;  ///< the values at the instants are not those of the objective
-  double radius_;
-  Eigen::VectorXd reach_;  ///< of each row of the knots: sum of the magnitudes of its entries
+  TrustRegion trust_;
+  StepRows rows_;
   bool done_ = false;
   TrajectoryProgram* program_ = nullptr;  ///< about at_; null: not linearised yet
-  TrajectorySolution solution_;
-  std::vector<Eigen::Triplet<double>> entries_;
-  std::vector<double> low_, high_;
-  std::vector<int> row_of_;
   Part found_;
 };
 

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <atomic>
 #include <memory>
@@ -38,5 +40,14 @@ struct Drawn {
   Part found;
   std::atomic<long> shown = 0;
 };
+
+inline void expect_same(const Drawn& one, const Drawn& other) {
+  ASSERT_EQ(one.starts.size(), other.starts.size());
+  for (std::size_t i = 0; i < one.starts.size(); ++i) {
+    EXPECT_EQ(one.starts[i].theta_r, other.starts[i].theta_r);
+    EXPECT_EQ(one.starts[i].value, other.starts[i].value);
+  }
+  EXPECT_EQ(one.found.trace.evaluations(), other.found.trace.evaluations());
+}
 
 }  // namespace maxwrench

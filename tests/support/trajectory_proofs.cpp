@@ -27,4 +27,12 @@ TrajectoryCertificate certified(const Problem& problem, const Eigen::MatrixXd& k
   return read_trajectory_certificates(file).front();
 }
 
+Eigen::MatrixXd fast_turn_knots() {
+  return Eigen::MatrixXd{{2.7661, 0.7006, 0.5315, -0.2545}, {2.7568, 0.6953, 0.4985, -0.2582},
+                         {2.7484, 0.7032, 0.4489, -0.2626}, {2.7732, 0.7346, 0.4397, -0.2499},
+                         {2.8393, 0.7593, 0.4701, -0.1962}, {2.9143, 0.7829, 0.5251, -0.1037},
+                         {2.9893, 0.8465, 0.5973, 0.0183},  {3.0596, 0.9103, 0.6379, 0.1429},
+                         {3.1065, 0.9244, 0.6215, 0.2275},  {3.1249, 0.9207, 0.6033, 0.2564}};
+}
+
 }  // namespace maxwrench

@@ -17,4 +17,8 @@ Eigen::MatrixXd shipped_knots(const std::string& name, const Problem& problem);
 TrajectoryCertificate certified(const Problem& problem, const Eigen::MatrixXd& knots,
                                 int parts = 0);
 
+/// Knots of uvms/valve_trajectory_fast, where effort rates bind so much that no wrench of one size
+/// can be exerted throughout as large as the least of one that varies.
+Eigen::MatrixXd fast_turn_knots();
+
 }  // namespace maxwrench

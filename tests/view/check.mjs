@@ -11,7 +11,7 @@ const inTime = (task) => task.includes("trajectory") || task === kListInTime;
 const out = resolve(folder);
 mkdirSync(out, { recursive: true });
 
-const kTasks = chosen.length ? chosen : ["uvms/valve", "uvms/valve_trajectory", "dual_arm/two_arms", "mobile/push", "planar/force", "fixed/push", "gallery/panda/lift",
+const kTasks = chosen.length ? chosen : ["uvms/valve", "uvms/valve_trajectory", "dual_arm/two_arms", "mobile/push", "planar/force", "fixed/push", "gallery/gen3/lift",
   "examples/tasks/lift_with_a_dead_thruster.toml", kListInTime];
 const kSizes = [{ width: 1280, height: 800, scheme: "light" }, { width: 390, height: 844, scheme: "dark" }];
 const kBrowsers = 2; // beside each other
@@ -118,9 +118,10 @@ async function checkDetails(page, task, name) {
     check(await page.evaluate("document.getElementById('set-note').hidden"), `${name}: the set is that of the posture`);
   }
   if (task.includes("tasks/")) {
-    const decides = (await evaluate(task, theta)).decides.replaceAll("_", " ");
+    const { decides: scenario, scenarios } = await evaluate(task, theta, "--scenarios");
+    const decides = scenario.replaceAll("_", " ");
     check((await page.evaluate("document.getElementById('decides').textContent")).startsWith(`${decides} decides`), `${name}: ${decides} decides`);
-    check((await page.evaluate("document.querySelectorAll('#ends tbody tr').length")) > 1, `${name}: scenarios are listed`);
+    check((await page.evaluate("document.querySelectorAll('#ends tbody tr').length")) === scenarios.length, `${name}: ${scenarios.length} scenarios are listed`);
     return;
   }
   const expected = await evaluate(task, theta, "--explain");

@@ -14,14 +14,15 @@ struct TrajectoryCertificate {
   std::string problem;       ///< name of the problem on the command line
   bool collision = true;     ///< whether bodies are kept apart
   std::uint64_t digest = 0;  ///< of the robot, the task and its motion
-  /// [N or N m] Along a path, v c is exerted at all times. In an impulse, at the peak.
+  /// v [N or N m]. Along a path, w c with w >= v is exerted at all times. In an impulse, at the
+  /// peak.
   double value = 0;
   int t_h = 0;            ///< the knot of an impulse's peak
   Eigen::MatrixXd knots;  ///< k×r, without theta_0 of an impulse
   /// The number of parts into which the edges cut each interval between knots.
   int parts = 0;
   Eigen::MatrixXd y;  ///< control points of the efforts at the edges, m×(parts intervals + 1)
-  /// Of an impulse: control points of the wrench along c at the edges. Else empty.
+  /// Control points of the wrench along c at the edges. Empty along a path where w = v throughout.
   Eigen::VectorXd w;
 };
 

@@ -41,8 +41,9 @@ std::string reject_sizes(const Problem& problem, const TrajectoryCertificate& pr
   const Eigen::Index intervals = task.k - (task.impulse ? 0 : 1);
   if (proof.parts < 1 || proof.parts > kMostEdges / intervals) return "it has no edges or too many";
   const Eigen::Index edges = intervals * proof.parts + 1;
+  const bool has_w = proof.w.size() == edges, may_lack_w = !task.impulse && proof.w.size() == 0;
   if (proof.y.rows() != problem.robot.actuators() || proof.y.cols() != edges ||
-      proof.w.size() != (task.impulse ? edges : 0)) {
+      !(has_w || may_lack_w)) {
     return "its efforts have another size";
   }
   if (!within(proof.knots, kLargestKnot) || !within(proof.y, kLargestEffort) ||
@@ -52,11 +53,20 @@ std::string reject_sizes(const Problem& problem, const TrajectoryCertificate& pr
   return "";
 }
 
+/// Empty, or why the wrenches of a path are not what the certificate claims. The B-spline is within
+/// the range of its control points.
+std::string reject_path(const TrajectoryCertificate& proof) {
+  if (proof.t_h != 0) return "it has a peak";
+  if (proof.w.size() > 0 && !(proof.w.minCoeff() >= proof.value)) {
+    return "a wrench is below its value";
+  }
+  return "";
+}
+
 /// Empty, or why the wrenches of an impulse are not those that the task asks for. In balance at
 /// rest, w_0 cannot exceed the static capability.
 std::string reject_impulse(const Problem& problem, const TrajectoryCertificate& proof) {
   const MotionTask& task = *problem.motion;
-  if (!task.impulse) return proof.t_h == 0 ? "" : "it has a peak";
   if (proof.t_h < 1 || proof.t_h > task.k || (task.t_h > 0 && proof.t_h != task.t_h)) {
     return "its peak is at another knot";
   }
@@ -132,7 +142,10 @@ TrajectoryVerification verify(const Problem& problem, const TrajectoryCertificat
   require_provable(problem);
   TrajectoryVerification result;
   result.rejection = reject_sizes(problem, proof);
-  if (result.rejection.empty()) result.rejection = reject_impulse(problem, proof);
+  if (result.rejection.empty()) {
+    result.rejection =
+        problem.motion->impulse ? reject_impulse(problem, proof) : reject_path(proof);
+  }
   if (!result.rejection.empty()) return result;
   const TrajectoryModel model(problem, proof.knots);
   const EffortLaw law(model, proof);

@@ -16,11 +16,11 @@ inline constexpr double kKnotTolerance = 1e-6;
 /// begins at rest and without acceleration.
 MotionFault check_motion(const TrajectoryModel& model);
 
-/// Checks that a certificate proves its claim about a task: the robot can exert the wrench at every
-/// instant, with efforts, effort rates, joints and joint speeds within their limits, and, if the
-/// certificate says so, without collision. The efforts are enclosed anew in interval arithmetic,
-/// from the problem's data and the certificate, without any code that found them. The result is the
-/// same at any number of threads.
+/// Checks that a certificate proves its claim about a task: the robot can exert the wrench or
+/// more at every instant, with efforts, effort rates, joints and joint speeds within their limits,
+/// and, if the certificate says so, without collision. The efforts are enclosed anew in interval
+/// arithmetic, from the problem's data and the certificate, without any code that found them. The
+/// result is the same at any number of threads.
 ///
 /// @throws std::invalid_argument as `require_provable`.
 TrajectoryVerification verify(const Problem& problem, const TrajectoryCertificate& proof,

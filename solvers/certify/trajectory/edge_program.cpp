@@ -14,6 +14,8 @@ constexpr double kBendSafety = 1.05;
 constexpr double kMostOfRange = 0.25;
 /// Wrenches that differ by this share of the value are the same.
 constexpr double kEqualWrench = 1e-9;
+/// A wrench that varies along a path must be larger by this share.
+constexpr double kWorthVarying = 1e-5;
 
 }  // namespace
 
@@ -131,11 +133,15 @@ EdgeEfforts EdgeProgram::read(const TrajectorySolution& solution) const {
   efforts.y.resize(solution.u.rows(), edges);
   efforts.y.rightCols(blocks) = solution.u;
   if (blocks < edges) efforts.y.col(0) = solution.u.col(0);
-  if (!problem_.motion->impulse) return efforts;
+  if (!problem_.motion->impulse && exerts_equally(solution)) return efforts;
   efforts.w.resize(edges);
   for (Eigen::Index i = 0; i < blocks; ++i) {
     const auto at = static_cast<std::size_t>(i);
     efforts.w[i + edges - blocks] = solution.w[at][0] * program_.instants[at].c_w[0];
+  }
+  if (!problem_.motion->impulse) {
+    efforts.value = efforts.w.minCoeff();
+    return efforts;
   }
   if (blocks < edges) efforts.w[0] = efforts.w[1];
   if (problem_.motion->start == Start::kStatic) efforts.w[0] = std::max(efforts.w[0], 0.0);
@@ -144,31 +150,29 @@ EdgeEfforts EdgeProgram::read(const TrajectorySolution& solution) const {
   return efforts;
 }
 
-EdgeEfforts EdgeProgram::solve(double slack) {
-  TrajectorySolution solution;
-  if (slack >= 0) {
-    if (off_.size() == 0) {
-      program_ = loose_;
-      solver_->solve(program_, solution);
-      const EdgeEfforts loose = read(solution);
-      const auto edges = static_cast<Eigen::Index>(instants_.size());
-      measure_bends(loose.w.size() > 0 ? loose.w : Eigen::VectorXd::Constant(edges, loose.value));
-    }
-  }
-  tighten(slack);
+/// Along a path the same wrench throughout is simpler than one that varies, if it is not less.
+EdgeEfforts EdgeProgram::solve_program() {
+  TrajectorySolution solution, equal;
   solver_->solve(program_, solution);
   if (solution.status != Status::kOptimal || problem_.motion->impulse || exerts_equally(solution)) {
     return read(solution);
   }
-  // Where rates matter, instants may exert more than the least of them. The claim is the same
-  // wrench throughout.
-  for (WrenchProgram& at : program_.instants) {
-    const double w = solution.value / at.c_w[0];
-    at.w_min.setConstant(w);
-    at.w_max.setConstant(w);
+  program_.common = true;
+  solver_->solve(program_, equal);
+  program_.common = false;
+  const double enough = solution.value - kWorthVarying * (1 + std::abs(solution.value));
+  return read(equal.status == Status::kOptimal && equal.value >= enough ? equal : solution);
+}
+
+EdgeEfforts EdgeProgram::solve(double slack) {
+  if (slack >= 0 && off_.size() == 0) {
+    program_ = loose_;
+    const EdgeEfforts loose = solve_program();
+    const auto edges = static_cast<Eigen::Index>(instants_.size());
+    measure_bends(loose.w.size() > 0 ? loose.w : Eigen::VectorXd::Constant(edges, loose.value));
   }
-  solver_->solve(program_, solution);
-  return read(solution);
+  tighten(slack);
+  return solve_program();
 }
 
 }  // namespace maxwrench

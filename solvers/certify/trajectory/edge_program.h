@@ -13,9 +13,9 @@ namespace maxwrench {
 /// Efforts at the edges of a certificate.
 struct EdgeEfforts : Verdict {
   double t = -1;      ///< if infeasible: an instant that has no balance [s]
-  double value = 0;   ///< the wrench along c: at all edges, or at the peak
+  double value = 0;   ///< the wrench along c: the least at edges, or that at the peak
   Eigen::MatrixXd y;  ///< m×edges
-  Eigen::VectorXd w;  ///< of an impulse: the wrench along c at the edges
+  Eigen::VectorXd w;  ///< the wrench along c at the edges; empty: `value` throughout
 };
 
 /// The largest wrench with efforts at edges, such that the efforts of an `EffortLaw` with these
@@ -42,6 +42,7 @@ class EdgeProgram {
  private:
   void tighten(double slack);
   void measure_bends(const Eigen::VectorXd& w);
+  EdgeEfforts solve_program();
   EdgeEfforts read(const TrajectorySolution& solution) const;
   bool exerts_equally(const TrajectorySolution& solution) const;
 

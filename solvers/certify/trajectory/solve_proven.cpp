@@ -1,22 +1,38 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <memory>
 #include <utility>
 
+#include "maxwrench/batch.h"
+#include "maxwrench/strategies.h"
+#include "maxwrench/trajectory.h"
 #include "maxwrench/trajectory_proof.h"
+#include "solvers/search/slp_run.h"
 #include "verify/trajectory/motion_clearance.h"
 #include "verify/trajectory/verify_trajectory.h"
 
 namespace maxwrench {
 namespace {
 
-/// Searches with tighter limits, until a trajectory keeps the task's own.
-constexpr int kMostSearches = 5;
+using SearchClock = std::chrono::steady_clock;
+
+/// Rounds with tighter limits, until a trajectory keeps the task's own.
+constexpr int kMostRounds = 12;
+/// Evaluations of a local search with tighter limits.
+constexpr long kLocalEvaluations = 300;
+/// How often the share is bisected that tighter limits leave of a motion.
+constexpr int kHalvingsOfShare = 12;
+constexpr int kMostInstants = 16;      // in an interval between knots
+constexpr double kFirstSlower = 8e-3;  // share of the effort rates
+/// More instants are worth a round where a proof loses this share of the value.
+constexpr double kLossOfInstants = 5e-4;
 /// Extremes between knots are found on this many parts.
 constexpr int kPartsOfCurve = 256;
 /// Limits become tighter by this share more than needed.
 constexpr double kTighterBy = 1e-4;
-/// The margin of collisions becomes wider by this times the depth of the deepest one.
+/// The margin of collisions becomes wider by this times the depth of the deepest one. Knots may be
+/// farther apart than what is between them, so it is doubled while they do not move.
 constexpr double kMoreThanDepth = 1.2;
 
 /// A collision check with a larger margin, of the pairs whose distance is known.
@@ -93,10 +109,69 @@ bool tighten_limits(const Problem& task, const Eigen::MatrixXd& knots, double& w
   const double depth = deepest_collision(model);
   if (depth > kTouching) {
     exceeds = true;
-    wider += depth * kMoreThanDepth;
+    wider = std::max(2 * wider, depth * kMoreThanDepth);
     tight.robot.collision = std::make_shared<WiderMargin>(task.robot.collision, wider);
   }
   return exceeds && (tight.theta_r_min.array() <= tight.theta_r_max.array()).all();
+}
+
+/// Efforts that change as fast as they must between the instants of a search do not at all times:
+/// adds instants, and makes the rates slower by a share. Returns the share.
+double tighten_rates(const Problem& task, double slower, Problem& tight) {
+  int& instants = tight.motion->instants_per_interval;
+  instants = std::min(2 * instants, kMostInstants);
+  const double share = std::max(2 * slower, kFirstSlower);
+  tight.robot.u_rate_max = (1 - share) * task.robot.u_rate_max;
+  return share;
+}
+
+/// A trajectory of what is nearest to `knots` on the way from a posture that is held, and has a
+/// value within the limits of `tight`. Empty if that posture has none.
+Eigen::MatrixXd nearest_with_value(const Problem& tight, const Eigen::MatrixXd& knots,
+                                   const Options& options) {
+  const MotionTask& motion = *tight.motion;
+  Eigen::RowVectorXd held = knots.row(0);
+  if (!motion.impulse) held = knots.colwise().mean();
+  if (motion.impulse && motion.theta_0.size() > 0) held = motion.theta_0.transpose();
+  const Eigen::MatrixXd still = held.replicate(knots.rows(), 1);
+  const auto moving = [&](double share) -> Eigen::MatrixXd {
+    return still + share * (knots - still);
+  };
+  const auto has_value = [&](double share) {
+    const Answer answer = evaluate(tight, moving(share), options);
+    return answer.has_value() && answer.trajectory.collision.empty();
+  };
+  if (has_value(1)) return knots;
+  if (!has_value(0)) return {};
+  double low = 0, high = 1;
+  for (int i = 0; i < kHalvingsOfShare; ++i) {
+    const double middle = (low + high) / 2;
+    (has_value(middle) ? low : high) = middle;
+  }
+  return moving(low);
+}
+
+/// Where sequential linear programming leads from there, as an answer of `tight`. Without a value
+/// if it has no start.
+Answer continue_search(const Problem& tight, const Eigen::MatrixXd& knots, const Options& options) {
+  const auto before = SearchClock::now();
+  const Eigen::MatrixXd start = nearest_with_value(tight, knots, options);
+  if (start.size() == 0) return {};
+  const auto objective = make_trajectory_objective(
+      tight, options.wrench, trajectory_solvers().front().make, options.check_collision);
+  SearchOptions search;
+  search.interrupted = options.interrupted;
+  SearchRun run(search);
+  SlpRun slp(*objective, {stacked(start), evaluate(tight, start, options).beta()}, run);
+  slp.optimise(kLocalEvaluations);
+  // The best elastic value may be one that efforts reach almost.
+  const Eigen::MatrixXd end =
+      nearest_with_value(tight, unstacked(slp.best().theta_r, start.rows()), options);
+  Answer answer = evaluate(tight, end.size() > 0 ? end : start, options);
+  answer.evaluations = slp.found().trace.evaluations();
+  answer.wall_s = std::chrono::duration<double>(SearchClock::now() - before).count();
+  answer.calls = {{"slp", "continued", 1, answer.evaluations}};
+  return answer;
 }
 
 /// What the search did, for the answer of its trajectory.
@@ -120,29 +195,44 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
   proof_options.solver = "";
   proof_options.search = "";
   TrajectoryProof proof;
-  Answer found;
-  long evaluations = 0;  // of the searches before this one
-  double wall_s = 0;     // likewise
-  for (int search = 1; search <= kMostSearches; ++search) {
-    Answer next = solve(tight, options);
-    if (!next.has_value()) {
-      if (search > 1) break;  // nothing keeps the tighter limits
-      static_cast<Verdict&>(proof) = next;
-      proof.answer = std::move(next);
-      return proof;
+  Answer found = solve(task, options);
+  if (!found.has_value()) {
+    static_cast<Verdict&>(proof) = found;
+    proof.answer = std::move(found);
+    return proof;
+  }
+  Eigen::MatrixXd knots = found.trajectory.knots;
+  double slower = 0;
+  int& instants = tight.motion->instants_per_interval;
+  for (int round = 1;; ++round) {
+    TrajectoryProof next = certify_trajectory(task, knots, proof_options, how);
+    const Status status = next.status;
+    const bool enough =
+        status == Status::kProven && next.guaranteed >= next.answer.beta() * (1 - kLossOfInstants);
+    if (proof.status != Status::kProven ||
+        (status == Status::kProven && next.guaranteed > proof.guaranteed)) {
+      proof = std::move(next);
     }
-    found = std::move(next);
-    proof = certify_trajectory(task, found.trajectory.knots, proof_options, how);
-    take_search(found, proof.answer);
-    proof.answer.evaluations += evaluations;
-    proof.answer.wall_s += wall_s;
-    evaluations += found.evaluations;
-    wall_s += found.wall_s;
-    if (proof.status != Status::kInvalidPosture || (options.interrupted && options.interrupted()) ||
-        !tighten_limits(task, found.trajectory.knots, wider, tight)) {
+    if (enough || round == kMostRounds) break;
+    if (options.interrupted && options.interrupted()) break;
+    if (status == Status::kInvalidPosture) {
+      if (!tighten_limits(task, knots, wider, tight)) break;
+    } else if (status != Status::kProven) {
+      slower = tighten_rates(task, slower, tight);
+    } else if (instants < kMostInstants) {
+      instants *= 2;
+    } else {
       break;
     }
+    Answer continued = continue_search(tight, knots, proof_options);
+    if (!continued.has_value()) continued = solve(tight, options);
+    if (!continued.has_value()) break;
+    found.evaluations += continued.evaluations;
+    found.wall_s += continued.wall_s;
+    found.calls.insert(found.calls.end(), continued.calls.begin(), continued.calls.end());
+    knots = continued.trajectory.knots;
   }
+  take_search(found, proof.answer);
   // A posture that is held can be better than what keeps the tighter limits.
   const Eigen::MatrixXd held = task.theta_r_default.transpose().replicate(task.motion->k, 1);
   const Answer at_rest = evaluate(task, held, proof_options);

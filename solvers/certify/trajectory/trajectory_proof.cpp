@@ -127,7 +127,7 @@ class TrajectoryProver {
       const TrajectoryVerification check = verify(task_, claim_, threads_);
       if (check.verified()) {
         keep(check);
-        if (!task_.motion->impulse) raise(most);
+        if (claim_.w.size() == 0) raise(most);
         return true;
       }
       if (proof_.status != Status::kProven) {
@@ -138,7 +138,7 @@ class TrajectoryProver {
   }
 
   /// The efforts have a margin, so along a path they may exert more than the value that they were
-  /// found for. In an impulse the certificate also holds the wrench at the edges.
+  /// found for, unless the certificate also holds the wrench at the edges.
   void raise(double most) {
     double low = claim_.value;
     for (int i = 0; i < kRaises; ++i) {

@@ -24,7 +24,7 @@ TEST(ExplainCommand, PrintsTheAnswerFirst) {
   EXPECT_EQ(with.out.substr(0, head.size()), head);
   for (const char* line :
        {"\nbinds: front_right_vertical and front_left_vertical are at their lower limits\n",
-        "\n10 % more of front_right_vertical gives 0.56982 N\n", "\nweight ", "\nbuoyancy ",
+        "\n10 % more of front_right_vertical adds 0.56982 N\n", "\nweight ", "\nbuoyancy ",
         "\nsum: beta ", "\nposture optimised again: no rates, ", "\nleast efforts: |W_u u| "}) {
     EXPECT_NE(with.out.find(line), std::string::npos) << line << with.out;
   }

@@ -10,6 +10,7 @@
 #include "maxwrench/problem.h"
 #include "maxwrench/trajectory.h"
 #include "solvers/trajectory/makers.h"
+#include "tests/support/knot_gradients.h"
 #include "tests/support/support.h"
 
 // A payload along a path, and a table of wrenches.
@@ -145,18 +146,7 @@ TEST(CarriedBody, AtRestIsTheStaticPayload) {
 
 void expect_exact_gradient(const Problem& problem, Random& random) {
   TrajectoryEvaluator evaluator(problem, Wrench::kPure, make_facets_or_ipm, false);
-  Eigen::MatrixXd knots = default_knots(problem);
-  for (double& entry : knots.reshaped()) entry += 0.02 * random.normal();
-  const Eigen::MatrixXd gradient = evaluator.evaluate(knots).gradient;
-  ASSERT_EQ(evaluator.trajectory().status, Status::kOptimal);
-  constexpr double kStep = 1e-6;
-  for (Eigen::Index i = 0; i < knots.size(); ++i) {
-    Eigen::MatrixXd up = knots, down = knots;
-    up.reshaped()[i] += kStep;
-    down.reshaped()[i] -= kStep;
-    const double rise = evaluator.evaluate(up).value - evaluator.evaluate(down).value;
-    EXPECT_NEAR(gradient.reshaped()[i], rise / (2 * kStep), 1e-6) << i;
-  }
+  expect_knot_gradient(evaluator, moved_a_little(default_knots(problem), random), 1e-6);
 }
 
 TEST(CarriedBody, HasExactGradients) {

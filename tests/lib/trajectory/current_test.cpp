@@ -6,6 +6,7 @@
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
+#include "tests/support/knot_gradients.h"
 #include "tests/support/scenario_task.h"
 #include "tests/support/support.h"
 #include "tests/support/task_in_time.h"
@@ -85,18 +86,8 @@ TEST(CurrentInTime, GradientIsThatOfDifferences) {
     problem.motion->scheme = scheme;
     problem.motion->k = 4;
     TrajectoryEvaluator evaluator(problem, Wrench::kPure, trajectory_solvers().front().make, false);
-    Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
-    for (double& entry : knots.reshaped()) entry += 0.02 * random.normal();
-    const Eigen::MatrixXd gradient = evaluator.evaluate(knots).gradient;
-    ASSERT_EQ(evaluator.trajectory().status, Status::kOptimal);
-    constexpr double kStep = 1e-6;
-    for (Eigen::Index i = 0; i < knots.size(); ++i) {
-      Eigen::MatrixXd up = knots, down = knots;
-      up.reshaped()[i] += kStep;
-      down.reshaped()[i] -= kStep;
-      const double rise = evaluator.evaluate(up).value - evaluator.evaluate(down).value;
-      EXPECT_NEAR(gradient.reshaped()[i], rise / (2 * kStep), 1e-5) << i;
-    }
+    const Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
+    expect_knot_gradient(evaluator, moved_a_little(knots, random), 1e-5);
   }
 }
 

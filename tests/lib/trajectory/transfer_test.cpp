@@ -10,6 +10,7 @@
 #include "maxwrench/problem.h"
 #include "maxwrench/trajectory.h"
 #include "solvers/trajectory/makers.h"
+#include "tests/support/knot_gradients.h"
 #include "tests/support/support.h"
 
 // A payload from one posture to another.
@@ -80,9 +81,7 @@ TEST(Transfer, HasTheEffortsOfNewtonsLaw) {
   const Problem problem = load_problem(MAXWRENCH_SOURCE_DIR "/examples/tasks/two_link/lift.toml");
   TrajectoryEvaluator evaluator(problem, Wrench::kPure, transfer_solver());
   Random random(1);
-  Eigen::MatrixXd knots = default_knots(problem);
-  for (double& entry : knots.reshaped()) entry += 0.02 * random.normal();
-  const Trajectory& trajectory = evaluator.evaluate(knots);
+  const Trajectory& trajectory = evaluator.evaluate(moved_a_little(default_knots(problem), random));
   ASSERT_EQ(trajectory.status, Status::kOptimal);
   for (const Instant& instant : trajectory.instants) {
     EXPECT_LT((instant.u - efforts_by_hand(instant, trajectory.value)).norm(), 1e-9);
@@ -95,18 +94,7 @@ TEST(Transfer, HasExactGradients) {
   const Problem problem = load_problem(MAXWRENCH_SOURCE_DIR "/examples/tasks/two_link/lift.toml");
   TrajectoryEvaluator evaluator(problem, Wrench::kPure, transfer_solver());
   Random random(2);
-  Eigen::MatrixXd knots = default_knots(problem);
-  for (double& entry : knots.reshaped()) entry += 0.02 * random.normal();
-  const Eigen::MatrixXd gradient = evaluator.evaluate(knots).gradient;
-  ASSERT_EQ(evaluator.trajectory().status, Status::kOptimal);
-  constexpr double kStep = 1e-6;
-  for (Eigen::Index i = 0; i < knots.size(); ++i) {
-    Eigen::MatrixXd up = knots, down = knots;
-    up.reshaped()[i] += kStep;
-    down.reshaped()[i] -= kStep;
-    const double rise = evaluator.evaluate(up).value - evaluator.evaluate(down).value;
-    EXPECT_NEAR(gradient.reshaped()[i], rise / (2 * kStep), 1e-6) << i;
-  }
+  expect_knot_gradient(evaluator, moved_a_little(default_knots(problem), random), 1e-6);
 }
 
 /// The columns of the knots in the linear program of a search are those of the gradient.

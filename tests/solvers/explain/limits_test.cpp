@@ -264,7 +264,7 @@ TEST(BindingLimits, AtAKinkHaveARateForEachSide) {
     EXPECT_NEAR(limit.down, 2, 1e-12);  // both limits of the motor meet at -1
     EXPECT_EQ(limit.gain, 0);
   }
-  EXPECT_NE(summary(explanation).find("10 % more of one limit alone gives nothing"),
+  EXPECT_NE(summary(explanation).find("10 % more of one limit alone adds nothing"),
             std::string::npos);
 }
 

@@ -77,12 +77,7 @@ TEST_P(KnotStartsOf, SLOW_AreTheSameAtAnyThreadCount) {
   const auto objective = trajectories_to_draw(problem);
   const Drawn one(find_knot_starts, *objective, draw_options(problem, 300, 1));
   const Drawn four(find_knot_starts, *objective, draw_options(problem, 300, 4));
-  ASSERT_EQ(one.starts.size(), four.starts.size());
-  for (std::size_t i = 0; i < one.starts.size(); ++i) {
-    EXPECT_EQ(one.starts[i].theta_r, four.starts[i].theta_r);
-    EXPECT_EQ(one.starts[i].value, four.starts[i].value);
-  }
-  EXPECT_EQ(one.found.trace.evaluations(), four.found.trace.evaluations());
+  expect_same(one, four);
   SearchOptions other = draw_options(problem, 300);
   other.seed = 2;
   const Drawn elsewhere(find_knot_starts, *objective, other);

@@ -37,6 +37,16 @@ const TrajectoryCertificate& impulse_proof() {
   return proof;
 }
 
+/// A path along which the wrench varies.
+const Problem& fast_turn() {
+  static const Problem problem = load_problem("uvms/valve_trajectory_fast");
+  return problem;
+}
+const TrajectoryCertificate& fast_turn_proof() {
+  static const TrajectoryCertificate proof = certified(fast_turn(), fast_turn_knots());
+  return proof;
+}
+
 std::string rejection(const Problem& problem, const TrajectoryCertificate& proof) {
   return verify(problem, proof, 2).rejection;
 }
@@ -44,6 +54,7 @@ std::string rejection(const Problem& problem, const TrajectoryCertificate& proof
 TEST(VerifyTrajectory, VerifiesWhatIsProven) {
   EXPECT_EQ(rejection(turn(), turn_proof()), "");
   EXPECT_EQ(rejection(held_impulse(), impulse_proof()), "");
+  EXPECT_EQ(rejection(fast_turn(), fast_turn_proof()), "");
   const TrajectoryVerification one = verify(turn(), turn_proof(), 1);
   const TrajectoryVerification three = verify(turn(), turn_proof(), 3);
   EXPECT_EQ(one.slices, three.slices);
@@ -62,6 +73,22 @@ TEST(VerifyTrajectory, RejectsAValueThatHoldsAtSamplesOnly) {
   EXPECT_NE(result.rejection, "");
   EXPECT_GT(result.t, 0.5);
   EXPECT_LT(result.t, 1.3);
+}
+
+/// Control points bound a B-spline, so each must be at least the value.
+TEST(VerifyTrajectory, RejectsAPathWithAWrenchBelowItsValue) {
+  ASSERT_GT(fast_turn_proof().w.size(), 0);
+  EXPECT_GE(fast_turn_proof().w.minCoeff(), fast_turn_proof().value);
+  TrajectoryCertificate wrong = fast_turn_proof();
+  wrong.w[70] = wrong.value - 1e-9;
+  EXPECT_EQ(rejection(fast_turn(), wrong), "a wrench is below its value");
+  wrong.w[70] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(rejection(fast_turn(), wrong), "a number is not finite or is too large");
+  wrong = fast_turn_proof();
+  wrong.w *= 1.01;
+  EXPECT_NE(rejection(fast_turn(), wrong), "");
+  wrong.w.conservativeResize(wrong.w.size() - 1);
+  EXPECT_EQ(rejection(fast_turn(), wrong), "its efforts have another size");
 }
 
 using Tamper = std::function<void(TrajectoryCertificate&)>;
@@ -183,9 +210,9 @@ TEST(VerifyTrajectory, RejectsDamagedFiles) {
 /// rates, at 25 times as many instants as there are edges.
 TEST(VerifyTrajectory, EffortsKeepTheirLimitsAtManyInstants) {
   const int fine = 25;
-  for (const bool impulse : {false, true}) {
-    const Problem& problem = impulse ? held_impulse() : turn();
-    const TrajectoryCertificate& proof = impulse ? impulse_proof() : turn_proof();
+  const std::pair<const Problem&, const TrajectoryCertificate&> proofs[] = {
+      {turn(), turn_proof()}, {held_impulse(), impulse_proof()}, {fast_turn(), fast_turn_proof()}};
+  for (const auto& [problem, proof] : proofs) {
     MotionEvaluator motion(problem, make_dense_spline(*problem.motion, proof.parts * fine));
     std::vector<Instant> instants;
     motion.evaluate(all_knots(*problem.motion, proof.knots), instants);
@@ -208,7 +235,9 @@ TEST(VerifyTrajectory, EffortsKeepTheirLimitsAtManyInstants) {
       for (Eigen::Index k = 0; k < y.size(); ++k) {
         y[k] = spline(Eigen::VectorXd(proof.y.row(k)), interval, place);
       }
-      const double w = impulse ? spline(proof.w, interval, place) : proof.value;
+      const bool varies = proof.w.size() > 0;
+      const double w = varies ? spline(proof.w, interval, place) : proof.value;
+      EXPECT_TRUE(problem.motion->impulse || w >= proof.value);
       const Eigen::VectorXd load = instants[i].tau_d + w * (instants[i].J.transpose() * problem.c);
       const Eigen::VectorXd u = y + set.B_pinv * (load - set.B * y);
       EXPECT_LT((set.B * u - load).cwiseAbs().maxCoeff(), 1e-9);

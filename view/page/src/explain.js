@@ -121,9 +121,9 @@ export function showScenarios(scenarios, unit, stale, t) {
   section.hidden = !scenarios;
   section.classList.toggle("stale", Boolean(stale));
   if (!scenarios) return;
-  const all = `of ${scenarios.count} scenario${scenarios.count === 1 ? "" : "s"}`;
+  const all = scenarios.count === 1 ? "the only scenario" : `of ${scenarios.count} scenarios`;
   const when = scenarios.decides_at === undefined || scenarios.decides_at === null ? "" : ` at ${shown(scenarios.decides_at, 4)} s`;
-  const decides = scenarios.decides ? `${words(scenarios.decides)} decides${when}, ${all}; the picture shows its efforts.` : `None decides, ${all}.`;
+  const decides = scenarios.decides ? `${words(scenarios.decides)} decides${when}, ${all}; the picture shows its efforts.` : `None of them decides (${scenarios.count}).`;
   const listed = scenarios.ends?.length;
   const inTime = listed && t !== undefined;
   byId("decides").textContent = decides + (inTime ? worstAt(scenarios, unit, t) : "");

@@ -14,6 +14,7 @@ async function start() {
 
 start().catch((error) => {
   byId("failed").hidden = false;
-  byId("failed").textContent = `The page cannot be shown: ${error.message}. It needs a browser with WebGL 2.`;
+  const needed = error.message.includes("WebGL") ? ". It needs a browser with WebGL 2." : "";
+  byId("failed").textContent = `The page cannot be shown: ${error.message}${needed}`;
   throw error;
 });

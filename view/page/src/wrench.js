@@ -64,6 +64,6 @@ export class Wrenches extends Group {
     const numbers = [f > 1e-6 ? `${f.toPrecision(4)} N` : "", t > 1e-6 ? `${t.toPrecision(4)} N m` : ""].filter(Boolean);
     const tip = at.clone().addScaledVector(force, metres);
     if (t > 1e-6) tip.addScaledVector(torque, (0.1 * this.size) / t);
-    return { text: `${name} ${numbers.join(", ")}`, at: tip, kind: mark === this.h ? "wrench" : "second" };
+    return { text: `${name} ${numbers.join(", ") || "0 N"}`, at: tip, kind: mark === this.h ? "wrench" : "second" };
   }
 }
