@@ -206,6 +206,26 @@ def test_nested_lists_without_end_are_rejected(rejects):
     rejects(static, loss={"cases": endless})
 
 
+def test_the_data_of_the_scenario_that_decides():
+    """A task whose only uncertainty is the worst case has the same value."""
+    task = static("uvms/lift", uncertainty=PARAMETERS | {"current": {"speed": 0.3}, "thrust": 0.1}, loss={"any": 1})
+    answer = at_default(task)
+    worst = answer.worst
+    assert worst == json.loads(answer.to_json())["worst"] == pickle.loads(pickle.dumps(answer)).worst
+    assert worst["wrench"] is None and worst["c"] == [0, 0, 1, 0, 0, 0]
+    assert set(worst["deltas"]) == {"trim", "cob.vehicle", "mass.link_2", "mass.link_4", "com.link_2"}
+    assert len(worst["dead"]) == 1 and worst["dead"][0] not in worst["weaker"]
+    assert set(worst["weaker"].values()) == {0.1} and len(worst["weaker"]) == 7
+    assert np.linalg.norm(worst["current"]) == pytest.approx(0.3)
+    alone = static(
+        "uvms/lift",
+        uncertainty=PARAMETERS | {"current": {"vectors": [worst["current"]]}, "thrust": 0.1},
+        loss={"cases": [worst["dead"]]},
+    )
+    assert at_default(alone).beta == pytest.approx(answer.beta, rel=1e-9)
+    assert at_default(mw.load("uvms/lift")).worst is None
+
+
 def test_lists_in_time():
     """Weaker thrusters, a limp joint and a second sense: each against the wrench alone."""
     task = mw.load("planar/trajectory")
@@ -220,10 +240,12 @@ def test_lists_in_time():
     both = value(set=[[1, 0, 0, 0, 0, 0], [-1, 0, 0, 0, 0, 0]])
     assert both.beta == pytest.approx(min(alone.beta, other.beta), rel=1e-9)
     assert both.decides == "wrench 2" and 0 <= both.decides_at <= 2
+    assert both.worst["wrench"] == "wrench 2" and alone.worst is None
     weaker = value(uncertainty={"thrust": 0.1})
     assert weaker.beta < alone.beta and weaker.decides == "nominal"
     limp = value(loss={"cases": [["elbow"]]})  # holds its own link's inertia and no wrench
     assert abs(limp.beta) < 0.01 * alone.beta and limp.decides == "elbow limp"
+    assert limp.worst["limp"] == ["elbow"] and limp.worst["deltas"] == {}
     with pytest.raises(mw.InputError, match="loss.friction: got 1, expected 0 in tasks in time"):
         value(loss={"cases": [["elbow"]], "friction": 1})
     assert not value(loss={"any": 1}).has_value

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+
+#include "solvers/certify/bound/any_rows.h"
+#include "solvers/certify/bound/bounds.h"
+
+namespace maxwrench {
+namespace {
+
+using Eigen::Vector2d;
+
+/// The directions from which the search at the centre of a box begins.
+constexpr int kFirstDirections = 8;
+/// The largest number of directions that follow one another, at a centre and over a box.
+constexpr int kMostTurns = 20, kMostTurnsOfBox = 4;
+/// A turn below this ends the search for a direction.
+constexpr double kSmallTurn = 1e-7;
+/// Beyond the rounding of a length and a quotient.
+constexpr double kTurnRounding = 8 * std::numeric_limits<double>::epsilon();
+
+Vector2d across(const Vector2d& d) { return {-d[1], d[0]}; }
+
+/// What a direction d proves, and with which multiplier mu; and the normal of the edge of P that
+/// the ray along d meets.
+struct Turned {
+  double high = kInfinity;
+  Eigen::VectorXd mu;
+  Vector2d normal;
+};
+
+class BallAnyBound final : public Bound {
+ public:
+  explicit BallAnyBound(std::shared_ptr<const AnyModel> model)
+      : model_(std::move(model)),
+        box_(model_->f),
+        rows_(*model_, sizes_of(*model_), with_zero(model_->j_min), with_zero(model_->j_max)) {}
+
+  double ceiling() const override { return rows_.ceiling(); }
+
+  void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
+                BoxProof& proof) override {
+    const Eigen::VectorXd known = proof.multiplier;
+    proof.forget(high);
+    if (!(spread(model_->f.coordinates(), lower, upper) <= kMostSpread)) return;
+    Q_ = box_.over(lower, upper).transpose();
+    Vector2d d = Vector2d::Zero();
+    if (known.size() == 2 + model_->j) {
+      d = known.head<2>();
+      turn(d, known.tail(model_->j), low, proof);
+      if (proof.high <= low) return;
+    }
+    Q_ = model_->f.evaluate((lower + upper) / 2).transpose();
+    const Vector2d nearest = nearest_edge(low);
+    if ((nearest - d).norm() < kSmallTurn) return;
+    Q_ = box_.over(lower, upper).transpose();
+    turn(nearest, {}, low, proof);
+  }
+
+  std::unique_ptr<Bound> clone() const override { return std::make_unique<BallAnyBound>(model_); }
+
+ private:
+  static Eigen::VectorXd with_zero(const Eigen::VectorXd& x) {
+    Eigen::VectorXd longer(x.size() + 1);
+    longer << x, 0;
+    return longer;
+  }
+
+  static Eigen::VectorXd sizes_of(const AnyModel& model) {
+    return along(model.sizes.transpose(), model, {1, 1}, {-1, -1}).transpose();
+  }
+
+  /// The rows of one direction d, as of a robot with another joint, which exerts nothing: the part
+  /// of the wrench across d is zero. Its multiplier turns d: the sum is the support of P along
+  /// d + s across(d).
+  static Eigen::MatrixXd along(const Eigen::MatrixXd& Q, const AnyModel& model, const Vector2d& d,
+                               const Vector2d& n) {
+    const Eigen::Index j = model.j, b = model.b;
+    const auto of = [&](const Vector2d& x, Eigen::Index first, Eigen::Index count) {
+      return Eigen::MatrixXd(x[0] * Q.middleCols(first, count) +
+                             x[1] * Q.middleCols(first + count, count));
+    };
+    Eigen::MatrixXd P(Q.rows(), 2 + j + b + (j + 1) * b);
+    P << of(d, 0, 1), Q.middleCols(2, j), -of(n, 0, 1), of(d, 2 + j, b),
+        Eigen::MatrixXd::Zero(Q.rows(), (j + 1) * b);
+    const Eigen::MatrixXd y = of(n, 2 + j, b);
+    for (Eigen::Index axis = 0; axis < b; ++axis) {
+      auto K = P.middleCols(2 + j + b + axis * (j + 1), j + 1);
+      K << Q.middleCols(2 + j + 2 * b + axis * j, j), -y.col(axis);
+    }
+    return P;
+  }
+
+  /// U of the direction d at the points of Q_. mu is where to begin, of j numbers or none.
+  Turned bound_along(const Vector2d& d, const Eigen::VectorXd& mu, double low) {
+    rows_.points() = along(Q_, *model_, d, across(d));
+    BoxProof own;
+    if (mu.size() > 0) own.multiplier = with_zero(mu);
+    rows_.bound(low, own);
+    const double s = own.multiplier[model_->j];
+    const Vector2d turned = d + s * across(d);
+    const double length = turned.norm(), high = own.high / length;
+    return {high + kTurnRounding * std::abs(high), own.multiplier.head(model_->j) / length,
+            turned / length};
+  }
+
+  /// Improves the proof by d and the directions that follow from it.
+  void turn(Vector2d d, Eigen::VectorXd mu, double low, BoxProof& proof) {
+    for (int i = 0; i < kMostTurnsOfBox; ++i) {
+      const double before = proof.high;
+      const Turned next = bound_along(d, mu, low);
+      Eigen::VectorXd multiplier(2 + model_->j);
+      multiplier << next.normal, next.mu;
+      proof.improve(next.high, multiplier);
+      const double turned = (next.normal - d).norm();
+      if (proof.high <= low || turned < kSmallTurn || !(proof.high < before)) return;
+      d = next.normal;
+      mu = next.mu;
+    }
+  }
+
+  /// The normal of the edge of P nearest to zero, as far as it is found, at the one point of Q_.
+  Vector2d nearest_edge(double low) {
+    Vector2d nearest = Vector2d::UnitX();
+    double least = kInfinity;
+    for (int k = 0; k < kFirstDirections; ++k) {
+      const double angle = 2 * std::numbers::pi * k / kFirstDirections;
+      Vector2d d(std::cos(angle), std::sin(angle));
+      for (int i = 0; i < kMostTurns; ++i) {
+        const Turned next = bound_along(d, {}, low);
+        const bool better = next.high < least;
+        if (better) {
+          least = next.high;
+          nearest = next.normal;
+        }
+        if (!better || (next.normal - d).norm() < kSmallTurn) break;
+        d = next.normal;
+      }
+    }
+    return nearest;
+  }
+
+  std::shared_ptr<const AnyModel> model_;
+  ControlPoints box_;
+  AnyRows rows_;
+  Eigen::MatrixXd Q_;
+};
+
+}  // namespace
+
+std::unique_ptr<Bound> make_ball_any_bound(const Problem& problem, const Matrix6Xd& E) {
+  return std::make_unique<BallAnyBound>(
+      std::make_shared<const AnyModel>(make_any_model(problem, E)));
+}
+
+}  // namespace maxwrench
