@@ -42,7 +42,8 @@ TEST(Losses, ScenariosNameTheirActuators) {
   spec.uncertainty = UncertaintySpec{.thrust = 0.1};
   const auto data_of = [](const TaskSpec& task, int limits) {
     const Problem problem = make_problem(task);
-    ScenarioChoice choice{.limits = limits};
+    ScenarioChoice choice;
+    choice.limits = limits;
     choice.cases.resize(problem.scenarios.loads.size());
     return scenario_data(problem, choice);
   };

@@ -4,33 +4,36 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "lib/math/decompositions.h"
 #include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/bound/exact_posture.h"
 
 namespace maxwrench {
 namespace {
 
-MultiAffine any_rows(const Problem& problem, const Matrix6Xd& C, Eigen::Index b, Eigen::Index j) {
+MultiAffine any_rows(const Problem& problem, const Matrix6Xd& W, const Matrix6Xd& C, Eigen::Index b,
+                     Eigen::Index j) {
   ExactPosture posture(problem);
-  const MatrixX<Extended> C_w = problem.W_any.cast<Extended>().transpose() * C.cast<Extended>();
-  return {all_coordinates(problem), problem.theta_r_default, [&](const ExtendedVector& theta_r) {
-            posture.set(theta_r);
-            const MatrixX<Extended> JtW = posture.J().transpose() * posture.turned(problem.W_any);
-            const Eigen::FullPivLU<MatrixX<Extended>> lu(
-                MatrixX<Extended>(JtW.topRows(b).transpose()));
-            const MatrixX<Extended> y = lu.solve(C_w);
-            const MatrixX<Extended> K =
-                MatrixX<Extended>(lu.solve(JtW.bottomRows(j).transpose())).transpose();
-            const ExtendedVector tau_b = posture.tau_d().head(b);
-            ExtendedVector rows(C.cols() + j + b * C.cols() + j * b);
-            rows << -y.transpose() * tau_b, posture.tau_d().tail(j) - K * tau_b, y.reshaped(),
-                K.reshaped();
-            return rows;
-          }};
+  const MatrixX<Extended> C_w = W.cast<Extended>().transpose() * C.cast<Extended>();
+  return {
+      all_coordinates(problem), problem.theta_r_default, [&](const ExtendedVector& theta_r) {
+        posture.set(theta_r);
+        const MatrixX<Extended> JtW = posture.J().transpose() * posture.turned(W);
+        const Eigen::FullPivLU<MatrixX<Extended>> lu(MatrixX<Extended>(JtW.topRows(b).transpose()));
+        const MatrixX<Extended> y = lu.solve(C_w);
+        const MatrixX<Extended> K =
+            MatrixX<Extended>(lu.solve(JtW.bottomRows(j).transpose())).transpose();
+        const ExtendedVector tau_b = posture.tau_d().head(b);
+        ExtendedVector rows(C.cols() + j + b * C.cols() + j * b);
+        rows << -y.transpose() * tau_b, posture.tau_d().tail(j) - K * tau_b, y.reshaped(),
+            K.reshaped();
+        return rows;
+      }};
 }
 
 /// Whether the rows agree with the model at other postures, too.
-bool reproduces(const Problem& problem, const MultiAffine& f, Eigen::Index b, Eigen::Index j) {
+bool reproduces(const Problem& problem, const Matrix6Xd& W, const MultiAffine& f, Eigen::Index b,
+                Eigen::Index j) {
   if (j == 0) return true;
   Eigen::VectorXd theta_r = problem.theta_r_default;
   ExactPosture posture(problem);
@@ -39,8 +42,7 @@ bool reproduces(const Problem& problem, const MultiAffine& f, Eigen::Index b, Ei
       theta_r[i] += 0.37 + 0.19 * static_cast<double>(i);
     }
     posture.set(theta_r.cast<Extended>());
-    const Eigen::MatrixXd JtW =
-        (posture.J().transpose() * posture.turned(problem.W_any)).cast<double>();
+    const Eigen::MatrixXd JtW = (posture.J().transpose() * posture.turned(W)).cast<double>();
     const Eigen::VectorXd rows = f.evaluate(theta_r);
     const Eigen::MatrixXd K = rows.tail(j * b).reshaped(j, b);
     const double off = (K * JtW.topRows(b) - JtW.bottomRows(j)).cwiseAbs().maxCoeff();
@@ -61,10 +63,15 @@ AnyModel make_any_model(const Problem& problem, const Matrix6Xd& C) {
                                 ": wrench: got 'any', expected pure for a proof: any needs a base "
                                 "whose free axes are as many as the wrenches");
   };
-  if (problem.W_any.cols() != b) reject();
+  Matrix6Xd X(6, 0);
+  if (problem.W_any.cols() < b && b == 6) X = split(problem.W_any).complement;
+  Matrix6Xd W(6, problem.W_any.cols() + X.cols()), all(6, C.cols() + X.cols());
+  W << problem.W_any, X;
+  all << C, X;
+  if (W.cols() != b) reject();
   require_few_control_points(problem.name, all_coordinates(problem));
-  MultiAffine f = any_rows(problem, C, b, j);
-  if (!f.coefficients().allFinite() || !reproduces(problem, f, b, j)) reject();
+  MultiAffine f = any_rows(problem, W, all, b, j);
+  if (!f.coefficients().allFinite() || !reproduces(problem, W, f, b, j)) reject();
   const Eigen::VectorXd sizes = f.magnitudes(problem.theta_r_min.array() - kCeilingMargin,
                                              problem.theta_r_max.array() + kCeilingMargin);
   const Zonotope& set = robot.actuation;
@@ -76,7 +83,40 @@ AnyModel make_any_model(const Problem& problem, const Matrix6Xd& C) {
           set.u_min.tail(j),
           set.u_max.tail(j),
           b,
-          j};
+          j,
+          C.cols(),
+          X.cols()};
+}
+
+Eigen::MatrixXd rows_along(const Eigen::MatrixXd& Q, const AnyModel& model,
+                           const Eigen::VectorXd& d, const Eigen::MatrixXd& N) {
+  const Eigen::Index j = model.j, b = model.b, all = model.aims + model.held;
+  const Eigen::Index more = N.cols() + model.held, joints = j + more;
+  // The columns of D are d, then those along which the wrench is zero. Their multipliers turn d.
+  Eigen::MatrixXd D = Eigen::MatrixXd::Zero(all, 1 + more);
+  D.col(0).head(model.aims) = d;
+  D.block(0, 1, model.aims, N.cols()) = -N;
+  D.bottomRightCorner(model.held, model.held).setIdentity();
+  Eigen::MatrixXd P(Q.rows(), 1 + joints + b + joints * b);
+  P.col(0) = Q.leftCols(all) * D.col(0);
+  P.middleCols(1, j) = Q.middleCols(all, j);
+  P.middleCols(1 + j, more) = Q.leftCols(all) * D.rightCols(more);
+  for (Eigen::Index axis = 0; axis < b; ++axis) {
+    // y_i'e_axis of all i.
+    Eigen::MatrixXd y(Q.rows(), all);
+    for (Eigen::Index i = 0; i < all; ++i) y.col(i) = Q.col(all + j + i * b + axis);
+    P.col(1 + joints + axis) = y * D.col(0);
+    const Eigen::Index K = 1 + joints + b + axis * joints;
+    P.middleCols(K, j) = Q.middleCols(all + j + all * b + axis * j, j);
+    P.middleCols(K + j, more) = y * D.rightCols(more);
+  }
+  return P;
+}
+
+Eigen::VectorXd with_zeros(const Eigen::VectorXd& limits, Eigen::Index count) {
+  Eigen::VectorXd longer = Eigen::VectorXd::Zero(limits.size() + count);
+  longer.head(limits.size()) = limits;
+  return longer;
 }
 
 AnyRows::AnyRows(const AnyModel& model, const Eigen::VectorXd& sizes, const Eigen::VectorXd& j_min,

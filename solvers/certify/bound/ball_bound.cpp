@@ -35,7 +35,8 @@ class BallAnyBound final : public Bound {
   explicit BallAnyBound(std::shared_ptr<const AnyModel> model)
       : model_(std::move(model)),
         box_(model_->f),
-        rows_(*model_, sizes_of(*model_), with_zero(model_->j_min), with_zero(model_->j_max)) {}
+        rows_(*model_, sizes_of(*model_), with_zeros(model_->j_min, 1 + model_->held),
+              with_zeros(model_->j_max, 1 + model_->held)) {}
 
   double ceiling() const override { return rows_.ceiling(); }
 
@@ -46,9 +47,9 @@ class BallAnyBound final : public Bound {
     if (!(spread(model_->f.coordinates(), lower, upper) <= kMostSpread)) return;
     Q_ = box_.over(lower, upper).transpose();
     Vector2d d = Vector2d::Zero();
-    if (known.size() == 2 + model_->j) {
+    if (known.size() == 2 + numbers()) {
       d = known.head<2>();
-      turn(d, known.tail(model_->j), low, proof);
+      turn(d, known.tail(numbers()), low, proof);
       if (proof.high <= low) return;
     }
     Q_ = model_->f.evaluate((lower + upper) / 2).transpose();
@@ -61,48 +62,31 @@ class BallAnyBound final : public Bound {
   std::unique_ptr<Bound> clone() const override { return std::make_unique<BallAnyBound>(model_); }
 
  private:
-  static Eigen::VectorXd with_zero(const Eigen::VectorXd& x) {
-    Eigen::VectorXd longer(x.size() + 1);
-    longer << x, 0;
-    return longer;
-  }
-
   static Eigen::VectorXd sizes_of(const AnyModel& model) {
-    return along(model.sizes.transpose(), model, {1, 1}, {-1, -1}).transpose();
+    return rows_along(model.sizes.transpose(), model, Vector2d::Ones(), -Vector2d::Ones())
+        .transpose();
   }
 
-  /// The rows of one direction d, as of a robot with another joint, which exerts nothing: the part
-  /// of the wrench across d is zero. Its multiplier turns d: the sum is the support of P along
-  /// d + s across(d).
-  static Eigen::MatrixXd along(const Eigen::MatrixXd& Q, const AnyModel& model, const Vector2d& d,
-                               const Vector2d& n) {
-    const Eigen::Index j = model.j, b = model.b;
-    const auto of = [&](const Vector2d& x, Eigen::Index first, Eigen::Index count) {
-      return Eigen::MatrixXd(x[0] * Q.middleCols(first, count) +
-                             x[1] * Q.middleCols(first + count, count));
-    };
-    Eigen::MatrixXd P(Q.rows(), 2 + j + b + (j + 1) * b);
-    P << of(d, 0, 1), Q.middleCols(2, j), -of(n, 0, 1), of(d, 2 + j, b),
-        Eigen::MatrixXd::Zero(Q.rows(), (j + 1) * b);
-    const Eigen::MatrixXd y = of(n, 2 + j, b);
-    for (Eigen::Index axis = 0; axis < b; ++axis) {
-      auto K = P.middleCols(2 + j + b + axis * (j + 1), j + 1);
-      K << Q.middleCols(2 + j + 2 * b + axis * j, j), -y.col(axis);
-    }
-    return P;
-  }
+  /// The numbers of mu: a multiplier of each joint, then of each axis along which nothing is free.
+  /// The multiplier of the wrench across d stands between them.
+  Eigen::Index numbers() const { return model_->j + model_->held; }
 
-  /// U of the direction d at the points of Q_. mu is where to begin, of j numbers or none.
+  /// U of the direction d at the points of Q_. mu is where to begin, or empty.
   Turned bound_along(const Vector2d& d, const Eigen::VectorXd& mu, double low) {
-    rows_.points() = along(Q_, *model_, d, across(d));
+    const Eigen::Index j = model_->j, held = model_->held;
+    rows_.points() = rows_along(Q_, *model_, d, across(d));
     BoxProof own;
-    if (mu.size() > 0) own.multiplier = with_zero(mu);
+    if (mu.size() > 0) {
+      own.multiplier.resize(j + 1 + held);
+      own.multiplier << mu.head(j), 0, mu.tail(held);
+    }
     rows_.bound(low, own);
-    const double s = own.multiplier[model_->j];
+    const double s = own.multiplier[j];
     const Vector2d turned = d + s * across(d);
     const double length = turned.norm(), high = own.high / length;
-    return {high + kTurnRounding * std::abs(high), own.multiplier.head(model_->j) / length,
-            turned / length};
+    Eigen::VectorXd mu_of_turned(numbers());
+    mu_of_turned << own.multiplier.head(j), own.multiplier.tail(held);
+    return {high + kTurnRounding * std::abs(high), mu_of_turned / length, turned / length};
   }
 
   /// Improves the proof by d and the directions that follow from it.
@@ -110,7 +94,7 @@ class BallAnyBound final : public Bound {
     for (int i = 0; i < kMostTurnsOfBox; ++i) {
       const double before = proof.high;
       const Turned next = bound_along(d, mu, low);
-      Eigen::VectorXd multiplier(2 + model_->j);
+      Eigen::VectorXd multiplier(2 + numbers());
       multiplier << next.normal, next.mu;
       proof.improve(next.high, multiplier);
       const double turned = (next.normal - d).norm();
