@@ -206,26 +206,6 @@ def test_nested_lists_without_end_are_rejected(rejects):
     rejects(static, loss={"cases": endless})
 
 
-def test_the_data_of_the_scenario_that_decides():
-    """A task whose only uncertainty is the worst case has the same value."""
-    task = static("uvms/lift", uncertainty=PARAMETERS | {"current": {"speed": 0.3}, "thrust": 0.1}, loss={"any": 1})
-    answer = at_default(task)
-    worst = answer.worst
-    assert worst == json.loads(answer.to_json())["worst"] == pickle.loads(pickle.dumps(answer)).worst
-    assert worst["wrench"] is None and worst["c"] == [0, 0, 1, 0, 0, 0]
-    assert set(worst["deltas"]) == {"trim", "cob.vehicle", "mass.link_2", "mass.link_4", "com.link_2"}
-    assert len(worst["dead"]) == 1 and worst["dead"][0] not in worst["weaker"]
-    assert set(worst["weaker"].values()) == {0.1} and len(worst["weaker"]) == 7
-    assert np.linalg.norm(worst["current"]) == pytest.approx(0.3)
-    alone = static(
-        "uvms/lift",
-        uncertainty=PARAMETERS | {"current": {"vectors": [worst["current"]]}, "thrust": 0.1},
-        loss={"cases": [worst["dead"]]},
-    )
-    assert at_default(alone).beta == pytest.approx(answer.beta, rel=1e-9)
-    assert at_default(mw.load("uvms/lift")).worst is None
-
-
 def test_lists_in_time():
     """Weaker thrusters, a limp joint and a second sense: each against the wrench alone."""
     task = mw.load("planar/trajectory")
