@@ -2,6 +2,8 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 #include "solvers/certify/bound/any_rows.h"
 #include "solvers/certify/bound/bounds.h"
@@ -11,10 +13,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The directions from which the search at the centre of a box begins.
-constexpr int kFirstDirections = 8;
-/// The largest number of directions that follow one another, at a centre and over a box.
-constexpr int kMostTurns = 20, kMostTurnsOfBox = 4;
+/// The rays with which the search at the centre of a box begins, and the largest number of them.
+constexpr int kFirstRays = 8;
+constexpr std::size_t kMostRays = 60;
+/// The largest number of directions of a box that follow one another.
+constexpr int kMostTurns = 4;
 /// A turn below this ends the search for a direction.
 constexpr double kSmallTurn = 1e-7;
 /// Beyond the rounding of a length and a quotient.
@@ -22,12 +25,19 @@ constexpr double kTurnRounding = 8 * std::numeric_limits<double>::epsilon();
 
 Vector2d across(const Vector2d& d) { return {-d[1], d[0]}; }
 
-/// What a direction d proves, and with which multiplier mu; and the normal of the edge of P that
-/// the ray along d meets.
+/// What a direction d proves, and with which multiplier mu; the normal of the edge of P that the
+/// ray along d meets, and how far along d.
 struct Turned {
   double high = kInfinity;
   Eigen::VectorXd mu;
   Vector2d normal;
+  double along_d = kInfinity;
+};
+
+/// Where the ray at an angle leaves P.
+struct RayEnd {
+  double angle;
+  Vector2d point;
 };
 
 class BallAnyBound final : public Bound {
@@ -86,12 +96,13 @@ class BallAnyBound final : public Bound {
     const double length = turned.norm(), high = own.high / length;
     Eigen::VectorXd mu_of_turned(numbers());
     mu_of_turned << own.multiplier.head(j), own.multiplier.tail(held);
-    return {high + kTurnRounding * std::abs(high), mu_of_turned / length, turned / length};
+    return {high + kTurnRounding * std::abs(high), mu_of_turned / length, turned / length,
+            own.high};
   }
 
   /// Improves the proof by d and the directions that follow from it.
   void turn(Vector2d d, Eigen::VectorXd mu, double low, BoxProof& proof) {
-    for (int i = 0; i < kMostTurnsOfBox; ++i) {
+    for (int i = 0; i < kMostTurns; ++i) {
       const double before = proof.high;
       const Turned next = bound_along(d, mu, low);
       Eigen::VectorXd multiplier(2 + numbers());
@@ -104,23 +115,38 @@ class BallAnyBound final : public Bound {
     }
   }
 
-  /// The normal of the edge of P nearest to zero, as far as it is found, at the one point of Q_.
+  /// The normal of the edge of P nearest to zero at the one point of Q_, unless an edge is found
+  /// that is not above `low`. Where rays leave P is known; between two of them no edge is nearer
+  /// than the chord of their points. So rays are added along the normal of the nearest chord.
   Vector2d nearest_edge(double low) {
+    rays_.clear();
     Vector2d nearest = Vector2d::UnitX();
     double least = kInfinity;
-    for (int k = 0; k < kFirstDirections; ++k) {
-      const double angle = 2 * std::numbers::pi * k / kFirstDirections;
-      Vector2d d(std::cos(angle), std::sin(angle));
-      for (int i = 0; i < kMostTurns; ++i) {
-        const Turned next = bound_along(d, {}, low);
-        const bool better = next.high < least;
-        if (better) {
-          least = next.high;
-          nearest = next.normal;
-        }
-        if (!better || (next.normal - d).norm() < kSmallTurn) break;
-        d = next.normal;
+    const auto shoot = [&](double angle) {
+      const Vector2d d(std::cos(angle), std::sin(angle));
+      const Turned met = bound_along(d, {}, low);
+      const auto later = [angle](const RayEnd& ray) { return ray.angle > angle; };
+      rays_.insert(std::find_if(rays_.begin(), rays_.end(), later), {angle, met.along_d * d});
+      if (!(met.high < least)) return;
+      least = met.high;
+      nearest = met.normal;
+    };
+    for (int k = 0; k < kFirstRays; ++k) shoot(2 * std::numbers::pi * k / kFirstRays);
+    while (least > low && rays_.size() < kMostRays) {
+      double nearer = least - kSmallTurn * std::abs(least), angle = kInfinity;
+      for (std::size_t k = 0; k < rays_.size(); ++k) {
+        const bool last = k + 1 == rays_.size();
+        const RayEnd &from = rays_[k], &to = rays_[last ? 0 : k + 1];
+        const Vector2d out = -across(to.point - from.point).normalized();
+        const double width = to.angle - from.angle + (last ? 2 * std::numbers::pi : 0);
+        if (width < kSmallTurn || !(out.dot(from.point) < nearer)) continue;
+        nearer = out.dot(from.point);
+        const double turn = std::remainder(std::atan2(out[1], out[0]) - from.angle - width / 2,
+                                           2 * std::numbers::pi);
+        angle = from.angle + width / 2 + (std::abs(turn) < 0.49 * width ? turn : 0);
       }
+      if (angle == kInfinity) break;
+      shoot(angle);
     }
     return nearest;
   }
@@ -129,6 +155,7 @@ class BallAnyBound final : public Bound {
   ControlPoints box_;
   AnyRows rows_;
   Eigen::MatrixXd Q_;
+  std::vector<RayEnd> rays_;  ///< counterclockwise
 };
 
 }  // namespace
