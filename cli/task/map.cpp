@@ -114,9 +114,11 @@ void add_map(CLI::App& app, int& exit_status) {
   options->add_json(command);
   options->source.add(command);
   command
-      .add_option("--over", options->over,
-                  "NAME=LOW:HIGH:COUNT for each coordinate: x y z roll pitch yaw (offsets of the "
-                  "pose), azimuth elevation (of c), wrench (its number)")
+      .add_option(
+          "--over", options->over,
+          "NAME=LOW:HIGH:COUNT for each coordinate: x y z roll pitch yaw (offsets of the "
+          "pose), azimuth elevation (of c), wrench (its number), thrust torque or the name of "
+          "an actuator (factors of limits)")
       ->required();
   command
       .add_option("--refine", options->plan.refine,

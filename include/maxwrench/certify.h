@@ -43,7 +43,7 @@ struct Proof : Verdict {
 };
 
 /// Returns what keeps a task from having a certificate: forces of a second contact, currents, or
-/// any wrenches of a list. Empty if nothing does.
+/// any wrenches of a list or with components that are not free. Empty if nothing does.
 std::string why_no_certificate(const Problem& task, Wrench wrench = Wrench::kPure);
 
 /// Searches for the best posture, and proves by branch and bound over all of theta_r how much

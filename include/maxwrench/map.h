@@ -24,6 +24,9 @@ inline constexpr long kMostCells = 1'000'000;
 /// * "azimuth", "elevation": the direction of c [rad], in the axes in which the task gives its
 ///   wrench: (cos el cos az, cos el sin az, sin el), a force or a torque as that of the task.
 /// * "wrench": the number of one of several wrenches of a task, from 1.
+/// * "thrust", "torque", or the name of an actuator: the factor [-], above 0, by which the limits
+/// of
+///   all thrusters, of the efforts of all joints, or of this actuator are multiplied.
 struct MapAxis {
   std::string name;  ///< the name of the coordinate
   double low = 0,    ///< the first value
@@ -31,7 +34,7 @@ struct MapAxis {
   long count = 1;    ///< number of values; with one value low = high
 };
 
-/// The coordinates that a map can have, in the order above.
+/// The coordinates that a map can have beside the names of actuators, in the order above.
 const std::vector<std::string>& map_coordinates();
 
 /// Returns the unit of a coordinate of a map: "m", "rad" or "-".

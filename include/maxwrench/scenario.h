@@ -1,7 +1,9 @@
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "maxwrench/types.h"
@@ -29,16 +31,31 @@ struct LinkLoad {
   Eigen::Vector3d moment = Eigen::Vector3d::Zero();
 };
 
+/// A change of a nominal value, by its key in the table `[uncertainty]`.
+struct Delta {
+  std::string key;         ///< such as "mass.link_4" or "com.base"
+  Eigen::VectorXd change;  ///< one number, or three of a centre, in the unit of the key
+};
+
 /// One case of an uncertain load.
 struct LoadCase {
   std::string name;             ///< for messages, such as "base mass +0.1 kg"; empty: nominal
   std::vector<LinkLoad> loads;  ///< changes of the nominal robot
   /// Velocity of the water in the world [m/s]; zero: at rest.
   Eigen::Vector3d current = Eigen::Vector3d::Zero();
+  std::vector<Delta> deltas = {};  ///< what `loads` follows from, as the task states it
 };
 
 /// The cases of one uncertain load, of which exactly one holds. Groups are independent.
 using LoadGroup = std::vector<LoadCase>;
+
+/// The actuators that a scenario has lost, and those that are weaker, by their indices in u.
+struct LostActuators {
+  std::vector<int> dead = {},         ///< thrusters that exert nothing
+      limp = {},                      ///< joints without a motor
+      locked = {};                    ///< joints that their brakes hold
+  std::map<int, double> weaker = {};  ///< the share by which an actuator is weaker [-]
+};
 
 /// The limits of the actuators, with all or with some of them lost.
 struct ScenarioLimits {
@@ -48,7 +65,7 @@ struct ScenarioLimits {
   Zonotope actuation;
   /// Whether a lost joint has a brake or friction: its effort is within limits, but no command.
   bool resists = false;
-  std::vector<int> locked = {};  ///< indices of the joints that their brakes hold
+  LostActuators lost = {};  ///< what the limits follow from
 };
 
 /// One wrench of a task.
@@ -114,6 +131,23 @@ struct ScenarioList {
 /// An example is "wrench 2; front_left dead; base com.x +0.005 m". It is "nominal" if there is
 /// nothing to tell.
 std::string describe(const ScenarioList& list, const ScenarioChoice& choice);
+
+/// A scenario in the keys of its task.
+struct ScenarioData {
+  std::string wrench;                  ///< the name of one of several wrenches; empty: there is one
+  Vector6d c;                          ///< the wrench per unit of the value, as `ScenarioChoice::c`
+  std::vector<Delta> deltas;           ///< changes of uncertain values; zeros are listed as well
+  std::vector<std::string> dead = {},  ///< names of thrusters that exert nothing,
+      limp = {},                       ///< of joints without a motor,
+      locked = {};                     ///< and of joints that their brakes hold
+  /// The names of weaker actuators with the share by which each is weaker [-].
+  std::vector<std::pair<std::string, double>> weaker = {};
+  /// Velocity of the water in the world [m/s]; none: the task has no current.
+  std::optional<Eigen::Vector3d> current = {};
+};
+
+/// Returns what a scenario of a task consists of: the data that `describe` puts into words.
+ScenarioData scenario_data(const Problem& problem, const ScenarioChoice& choice);
 
 /// Returns the task without uncertainty and loss: its wrenches with the nominal robot.
 ///

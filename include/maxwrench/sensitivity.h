@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "maxwrench/scenario.h"
 #include "maxwrench/solve.h"
 
 /// @file
@@ -29,6 +30,11 @@ struct ScenarioEnds {
 /// @return the intervals in the order of wrenches, limits and cases, the last load first
 /// @throws std::invalid_argument if the task has no list or there is no valid posture.
 std::vector<ScenarioEnds> scenario_ends(const Answer& answer);
+
+/// Returns a scenario as a JSON object on one line: `wrench` (null: there is one), `c`, `deltas` by
+/// key, `current` (null: none), the names of actuators that are `dead`, `limp` and `locked`, and
+/// by name the shares by which others are `weaker`.
+std::string to_json(const ScenarioData& data);
 
 /// Returns the intervals as text of several lines.
 std::string summary(const std::vector<ScenarioEnds>& ends);
@@ -91,6 +97,10 @@ struct Sensitivity {
 };
 
 /// Computes what a task is worth with each of several limits of its actuators.
+///
+/// Each search begins on its own. Where the best posture of other limits has a larger value than
+/// its own, it continues from there. So limits that allow more, such as those of the intact robot,
+/// have no smaller value than others, and no loss has a smaller one than all losses together.
 ///
 /// @param task     a static task with one contact
 /// @param theta_r  the given posture (r)

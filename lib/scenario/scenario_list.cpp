@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "lib/scenario/current_load.h"
 #include "maxwrench/capability.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/scenario.h"
@@ -29,6 +30,33 @@ std::string describe(const ScenarioList& list, const ScenarioChoice& choice) {
     add(list.loads[group][static_cast<std::size_t>(choice.cases[group])].name);
   }
   return text.empty() ? "nominal" : text;
+}
+
+ScenarioData scenario_data(const Problem& problem, const ScenarioChoice& choice) {
+  const ScenarioList& list = problem.scenarios;
+  const Robot& robot = problem.robot;
+  const auto name_of = [&robot](int actuator) {
+    const auto i = static_cast<std::size_t>(actuator), thrusters = robot.thrusters.size();
+    return i < thrusters ? robot.thrusters[i].name : robot.joints[i - thrusters].name;
+  };
+  ScenarioData data;
+  if (list.wrenches.size() > 1) {
+    data.wrench = list.wrenches[static_cast<std::size_t>(choice.wrench)].name;
+  }
+  data.c = choice.c;
+  const LostActuators& lost = list.limits[static_cast<std::size_t>(choice.limits)].lost;
+  for (const int i : lost.dead) data.dead.push_back(name_of(i));
+  for (const int i : lost.limp) data.limp.push_back(name_of(i));
+  for (const int i : lost.locked) data.locked.push_back(name_of(i));
+  for (const auto& [i, share] : lost.weaker) data.weaker.emplace_back(name_of(i), share);
+  if (!robot.current.isZero(0)) data.current = robot.current;
+  for (std::size_t group = 0; group < choice.cases.size(); ++group) {
+    const LoadGroup& cases = list.loads[group];
+    const LoadCase& load = cases[static_cast<std::size_t>(choice.cases[group])];
+    data.deltas.insert(data.deltas.end(), load.deltas.begin(), load.deltas.end());
+    if (has_current(cases)) data.current = load.current;
+  }
+  return data;
 }
 
 bool next(const ScenarioList& list, ScenarioChoice& choice) {

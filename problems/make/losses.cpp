@@ -152,16 +152,37 @@ std::vector<Lost> lost_sets(const LossSpec& loss, const Robot& robot) {
   return sets;
 }
 
-/// What is left of an actuator that is lost, and what the loss is called.
-std::string lose(const LossSpec& loss, const Robot& robot, int actuator, ActuatorLimits& limits) {
+/// Takes an actuator from the limits.
+void lose(const LossSpec& loss, const Robot& robot, int actuator, ActuatorLimits& limits) {
   const bool joint = joint_of(robot, actuator) != nullptr;
   const double left = !joint ? 0 : loss.joints_lock ? loss.brake : loss.friction;
   limits.u_min[actuator] = 0 - left;  // not -0
   limits.u_max[actuator] = left;
   limits.resists = limits.resists || left > 0;
-  if (joint && loss.joints_lock) limits.locked.push_back(actuator - thrusters_of(robot));
-  const char* how = !joint ? "dead" : loss.joints_lock ? "locked" : "limp";
-  return fmt::format("{} {}", name_of_actuator(robot, actuator), how);
+  LostActuators& lost = limits.lost;
+  std::vector<int>& such = !joint ? lost.dead : loss.joints_lock ? lost.locked : lost.limp;
+  such.push_back(actuator);
+}
+
+/// What is lost, and what is weaker although not all of its kind are.
+std::string words_of(const LostActuators& lost, const std::vector<int>& two_ends,
+                     const Robot& robot) {
+  std::vector<std::string> words;
+  const auto add = [&](const std::vector<int>& actuators, const char* how) {
+    for (const int i : actuators) {
+      words.push_back(fmt::format("{} {}", name_of_actuator(robot, i), how));
+    }
+  };
+  add(lost.dead, "dead");
+  add(lost.limp, "limp");
+  add(lost.locked, "locked");
+  for (const int i : two_ends) {
+    const auto found = lost.weaker.find(i);
+    if (found == lost.weaker.end()) continue;
+    words.push_back(
+        fmt::format("{} {:g} % weaker", name_of_actuator(robot, i), 100 * found->second));
+  }
+  return fmt::format("{}", fmt::join(words, " and "));
 }
 
 /// The share by which an actuator may be weaker.
@@ -182,16 +203,17 @@ bool has_two_ends(const UncertaintySpec& uncertainty, const Robot& robot, int ac
 void add_limits(const LossSpec& loss, const UncertaintySpec& uncertainty, const Robot& robot,
                 const Lost& lost, std::vector<ActuatorLimits>& result) {
   ActuatorLimits limits{.name = "", .u_min = robot.actuation.u_min, .u_max = robot.actuation.u_max};
-  std::vector<std::string> names;
   std::vector<int> two_ends;
   const auto weaken = [&](int i, ActuatorLimits& weaker) {
-    const double share = 1 - weaker_by(uncertainty, robot, i);
-    weaker.u_min[i] *= share;
-    weaker.u_max[i] *= share;
+    const double by = weaker_by(uncertainty, robot, i);
+    if (by == 0) return;
+    weaker.u_min[i] *= 1 - by;
+    weaker.u_max[i] *= 1 - by;
+    weaker.lost.weaker[i] = by;
   };
   for (int i = 0; i < robot.actuators(); ++i) {
     if (std::binary_search(lost.begin(), lost.end(), i)) {
-      names.push_back(lose(loss, robot, i, limits));
+      lose(loss, robot, i, limits);
     } else if (has_two_ends(uncertainty, robot, i)) {
       two_ends.push_back(i);
     } else {
@@ -200,14 +222,10 @@ void add_limits(const LossSpec& loss, const UncertaintySpec& uncertainty, const 
   }
   for (long weak = 0; weak < 1L << two_ends.size(); ++weak) {
     ActuatorLimits one = limits;
-    std::vector<std::string> all_names = names;
     for (std::size_t k = 0; k < two_ends.size(); ++k) {
-      if ((weak >> k & 1) == 0) continue;
-      weaken(two_ends[k], one);
-      all_names.push_back(fmt::format("{} {:g} % weaker", name_of_actuator(robot, two_ends[k]),
-                                      100 * weaker_by(uncertainty, robot, two_ends[k])));
+      if ((weak >> k & 1) != 0) weaken(two_ends[k], one);
     }
-    one.name = fmt::format("{}", fmt::join(all_names, " and "));
+    one.name = words_of(one.lost, two_ends, robot);
     result.push_back(std::move(one));
   }
 }
@@ -243,8 +261,8 @@ std::vector<ScenarioLimits> limits_of_each_loss(LossSpec loss, const Robot& robo
   loss.any = 1;
   std::vector<ScenarioLimits> limits;
   for (const ActuatorLimits& each : actuator_limits(loss, {}, robot)) {
-    limits.push_back({each.name, with_limits(robot.actuation, each.u_min, each.u_max), each.resists,
-                      each.locked});
+    limits.push_back(
+        {each.name, with_limits(robot.actuation, each.u_min, each.u_max), each.resists, each.lost});
   }
   return limits;
 }

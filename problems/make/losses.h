@@ -12,8 +12,8 @@ namespace maxwrench {
 struct ActuatorLimits {
   std::string name;  ///< as `ScenarioLimits::name`
   Eigen::VectorXd u_min, u_max;
-  bool resists = false;  ///< as `ScenarioLimits::resists`
-  std::vector<int> locked = {};
+  bool resists = false;     ///< as `ScenarioLimits::resists`
+  LostActuators lost = {};  ///< what the limits follow from
 };
 
 /// The limits of a robot with all its actuators, then those of each loss, in each case with the

@@ -259,7 +259,7 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
   }
   for (const ActuatorLimits& each : limits) {
     list.limits.push_back(
-        {each.name, with_limits(actuation, each.u_min, each.u_max), each.resists, each.locked});
+        {each.name, with_limits(actuation, each.u_min, each.u_max), each.resists, each.lost});
   }
 }
 

@@ -45,6 +45,29 @@ LinkLoad changed_by(const UncertainBody& body, const Eigen::Vector4d& change) {
   return load;
 }
 
+/// A change of the body, such as "base mass +0.1 kg, com.x -0.01 m".
+std::string words_of(const UncertainBody& body, const Eigen::Vector4d& change) {
+  std::vector<std::string> words;
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    if (!(body.widths[k] > 0)) continue;
+    words.push_back(k == 0 ? fmt::format("{} {:+g} {}", body.nouns[0], change[k], body.unit)
+                           : fmt::format("{}.{} {:+g} m", body.nouns[1],
+                                         kTwistAxes[static_cast<std::size_t>(k - 1)], change[k]));
+  }
+  return fmt::format("{} {}", body.part.name, fmt::join(words, ", "));
+}
+
+/// The same by keys.
+std::vector<Delta> deltas_of(const UncertainBody& body, const Eigen::Vector4d& change) {
+  std::vector<Delta> deltas;
+  const auto add = [&](const std::string& noun, const Eigen::VectorXd& by) {
+    deltas.push_back({noun + "." + body.part.name, by});
+  };
+  if (body.widths[0] > 0) add(body.nouns[0], change.head<1>());
+  if (!body.widths.tail<3>().isZero(0)) add(body.nouns[1], change.tail<3>());
+  return deltas;
+}
+
 /// The corners of the intervals of a body.
 LoadGroup corners_of(const UncertainBody& body) {
   std::vector<Eigen::Index> uncertain;
@@ -55,16 +78,13 @@ LoadGroup corners_of(const UncertainBody& body) {
   if (uncertain.empty()) return group;
   for (unsigned corner = 0; corner < 1U << uncertain.size(); ++corner) {
     Eigen::Vector4d change = Eigen::Vector4d::Zero();
-    std::vector<std::string> words;
     for (std::size_t i = 0; i < uncertain.size(); ++i) {
       const Eigen::Index k = uncertain[i];
       change[k] = (corner >> i & 1U) == 0 ? body.widths[k] : -body.widths[k];
-      words.push_back(k == 0 ? fmt::format("{} {:+g} {}", body.nouns[0], change[k], body.unit)
-                             : fmt::format("{}.{} {:+g} m", body.nouns[1],
-                                           kTwistAxes[static_cast<std::size_t>(k - 1)], change[k]));
     }
-    group.push_back({.name = fmt::format("{} {}", body.part.name, fmt::join(words, ", ")),
-                     .loads = {changed_by(body, change)}});
+    group.push_back({.name = words_of(body, change),
+                     .loads = {changed_by(body, change)},
+                     .deltas = deltas_of(body, change)});
   }
   return group;
 }
@@ -120,13 +140,19 @@ void add_bodies(const std::array<std::string, 2>& nouns,
   }
 }
 
+Delta delta_of(const char* key, double change) {
+  return {key, Eigen::VectorXd::Constant(1, change)};
+}
+
 LoadGroup trim_cases(double width, const Robot& robot) {
   require_non_negative("uncertainty.trim", width);
   LoadGroup group;
   for (const double change : {width, -width}) {
     // The trim carries: what it carries is missing from the wet mass of the base.
     const LinkLoad load{.mass = -change, .moment = -change * robot.trim.position};
-    group.push_back({.name = fmt::format("trim {:+g} kg", change), .loads = {load}});
+    group.push_back({.name = fmt::format("trim {:+g} kg", change),
+                     .loads = {load},
+                     .deltas = {delta_of("trim", change)}});
   }
   return width > 0 ? group : LoadGroup();
 }
@@ -141,7 +167,11 @@ LoadGroup payload_cases(const UncertaintySpec& uncertainty, const Problem& probl
   const Pose<double>& X = tip.placement;
   const LinkLoad load{
       .link = tip.link, .mass = mass, .moment = mass * (X.R * uncertainty.payload_com + X.p)};
-  return {{}, {.name = fmt::format("payload {:g} kg", mass), .loads = {load}}};
+  constexpr const char* kKey = "payload.mass";
+  return {{.name = "", .loads = {}, .deltas = {delta_of(kKey, 0)}},
+          {.name = fmt::format("payload {:g} kg", mass),
+           .loads = {load},
+           .deltas = {delta_of(kKey, mass)}}};
 }
 
 /// Still water and the currents of one speed from all directions, or the given currents.

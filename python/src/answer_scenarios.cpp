@@ -14,6 +14,16 @@ py::object decides(const PyAnswer& self) {
                           in_time ? answer.trajectory.decides : answer.capability.decides));
 }
 
+py::object worst(const PyAnswer& self) {
+  const Answer& answer = self.answer;
+  const bool in_time = answer.task && answer.task->motion.has_value();
+  const bool list = answer.has_value() && !answer.task->scenarios.empty();
+  if (!list || (in_time && answer.trajectory.decides_at < 0)) return py::none();
+  const ScenarioData data =
+      scenario_data(*answer.task, in_time ? answer.trajectory.decides : answer.capability.decides);
+  return py::module_::import("json").attr("loads")(to_json(data));
+}
+
 py::object decides_at(const PyAnswer& self) {
   const Answer& answer = self.answer;
   const Trajectory& trajectory = answer.trajectory;
@@ -69,6 +79,21 @@ void add_scenarios(py::class_<PyAnswer>& answer) {
           "decides", &decides,
           "The scenario that decides, if the task has a list of scenarios and there is a value, or "
           "None.")
+      .def_property_readonly("worst", &worst,
+                             R"(The data of `decides` as a dict, or None where that is None.
+
+``wrench`` is the name of one of several wrenches, or None, and ``c`` the wrench [force; torque] per
+unit of the value, in world axes; of a ball it is the critical one. ``deltas`` has the changes of
+uncertain values by their keys, such as ``"mass.link_4"`` or ``"com.base"``, in the units of these
+keys. ``current`` is the velocity of the water [m/s], or None if the task has no current. ``dead``,
+``limp`` and ``locked`` list actuators by name, and ``weaker`` has the shares by which others are
+weaker.
+
+>>> push = maxwrench.load("fixed/push")
+>>> unsure = maxwrench.Static(push.robot, uncertainty={"payload": {"mass": 0.5}})
+>>> maxwrench.evaluate(unsure, unsure.theta_r_default).worst["deltas"]
+{'payload.mass': 0.5}
+)")
       .def_property_readonly(
           "decides_at", &decides_at,
           "The time of the instant that decides [s], if the task is in time and has a list of "

@@ -167,7 +167,8 @@ Args:
     task: a static Task, or the name of one.
     over: the coordinates, such as ``{"x": (-0.2, 0.2, 9)}``: low, high and the number of values.
         They are x, y, z [m], roll, pitch, yaw [rad], offsets along and about the axes of the task's
-        pose; azimuth, elevation, the direction of c [rad]; wrench, the number of one of several.
+        pose; azimuth, elevation, the direction of c [rad]; wrench, the number of one of several;
+        thrust, torque or the name of an actuator, a factor of its limits.
     refine: how often cells of the grid are halved whose corners differ.
     tolerance: the difference of corners, as a share of the largest, above which they do.
     check: share of the cells that a search from scratch checks; see ``scratch``.

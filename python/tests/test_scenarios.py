@@ -220,10 +220,12 @@ def test_lists_in_time():
     both = value(set=[[1, 0, 0, 0, 0, 0], [-1, 0, 0, 0, 0, 0]])
     assert both.beta == pytest.approx(min(alone.beta, other.beta), rel=1e-9)
     assert both.decides == "wrench 2" and 0 <= both.decides_at <= 2
+    assert both.worst["wrench"] == "wrench 2" and alone.worst is None
     weaker = value(uncertainty={"thrust": 0.1})
     assert weaker.beta < alone.beta and weaker.decides == "nominal"
     limp = value(loss={"cases": [["elbow"]]})  # holds its own link's inertia and no wrench
     assert abs(limp.beta) < 0.01 * alone.beta and limp.decides == "elbow limp"
+    assert limp.worst["limp"] == ["elbow"] and limp.worst["deltas"] == {}
     with pytest.raises(mw.InputError, match="loss.friction: got 1, expected 0 in tasks in time"):
         value(loss={"cases": [["elbow"]], "friction": 1})
     assert not value(loss={"any": 1}).has_value

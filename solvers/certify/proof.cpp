@@ -150,6 +150,10 @@ Proof certify(const Problem& task, const Options& options, const ProofOptions& h
 std::string why_no_certificate(const Problem& task, Wrench wrench) {
   if (task.contact_columns() > 0) return "a task with forces of a second contact";
   if (wrench == Wrench::kAny && !task.scenarios.empty()) return "any wrenches of a list";
+  const auto free_axes = static_cast<Eigen::Index>(task.robot.base_axes.size());
+  if (wrench == Wrench::kAny && task.W_any.cols() != free_axes) {
+    return "any wrenches that leave out some components";
+  }
   return has_current(task.scenarios) ? "a task with currents" : "";
 }
 

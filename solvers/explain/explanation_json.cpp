@@ -15,8 +15,9 @@ ordered_json finite_or_null(double value) { return known(std::isfinite(value), v
 
 ordered_json text_or_null(const std::string& text) { return known(!text.empty(), text); }
 
-ordered_json limit_json(const LimitRate& limit) {
-  return {{"name", limit.name},
+/// `whose` is the key of what has the limit: an actuator, or anything.
+ordered_json limit_json(const char* whose, const LimitRate& limit) {
+  return {{whose, limit.name},
           {"unit", limit.unit},
           {"limit", to_string(limit.side)},
           {"at", limit.limit},
@@ -25,12 +26,12 @@ ordered_json limit_json(const LimitRate& limit) {
 
 ordered_json limits_json(const std::vector<LimitRate>& limits) {
   ordered_json list = ordered_json::array();
-  for (const LimitRate& limit : limits) list.push_back(limit_json(limit));
+  for (const LimitRate& limit : limits) list.push_back(limit_json("name", limit));
   return list;
 }
 
 ordered_json binding_json(const BindingLimit& limit) {
-  ordered_json object = limit_json(limit);
+  ordered_json object = limit_json("actuator", limit);
   object["share"] = limit.share;
   object["gain"] = finite_or_null(limit.gain);
   object["rate_up"] = finite_or_null(limit.rate_up);

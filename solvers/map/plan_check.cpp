@@ -34,8 +34,14 @@ std::string shown(const MapAxis& axis) {
 
 void check_axis(const MapAxis& axis, const Problem& task) {
   const std::vector<std::string>& known = map_coordinates();
-  if (std::find(known.begin(), known.end(), axis.name) == known.end()) {
-    throw_bad_axis(axis, fmt::format("one of the coordinates {}", fmt::join(known, " ")));
+  const bool scales = !scaled_actuators(task.robot, axis.name).empty();
+  if (!scales && std::find(known.begin(), known.end(), axis.name) == known.end()) {
+    throw_bad_axis(axis, fmt::format("one of the coordinates {}, or the name of an actuator",
+                                     fmt::join(known, " ")));
+  }
+  if (!scales && (axis.name == "thrust" || axis.name == "torque")) {
+    throw_bad_axis(axis, fmt::format("another coordinate: the robot has no {}",
+                                     axis.name == "thrust" ? "thrusters" : "joints"));
   }
   if (!std::isfinite(axis.low) || !std::isfinite(axis.high)) {
     throw_bad_axis(axis, "finite limits");
@@ -48,6 +54,7 @@ void check_axis(const MapAxis& axis, const Problem& task) {
     throw_bad_axis(axis, "the same limits for one value, or more values");
   }
   if (axis.count > 1 && !(axis.low < axis.high)) throw_bad_axis(axis, "low < high");
+  if (scales && !(axis.low > 0)) throw_bad_axis(axis, "factors above 0");
   if (axis.name != "wrench") return;
   const auto wrenches = static_cast<double>(task.scenarios.wrenches.size());
   const double step = axis.count > 1 ? (axis.high - axis.low) / (axis.count - 1) : 1;
@@ -103,14 +110,15 @@ bool same_values(const std::vector<double>& a, const std::vector<double>& b) {
 }  // namespace
 
 const std::vector<std::string>& map_coordinates() {
-  static const std::vector<std::string> kNames = {"x",   "y",       "z",         "roll",  "pitch",
-                                                  "yaw", "azimuth", "elevation", "wrench"};
+  static const std::vector<std::string> kNames = {
+      "x", "y", "z", "roll", "pitch", "yaw", "azimuth", "elevation", "wrench", "thrust", "torque"};
   return kNames;
 }
 
 const char* map_unit(const std::string& coordinate) {
-  if (coordinate == "wrench") return "-";
-  return coordinate.size() == 1 ? "m" : "rad";
+  const std::vector<std::string>& known = map_coordinates();
+  const auto place = std::find(known.begin(), known.end(), coordinate) - known.begin();
+  return place < 3 ? "m" : place < 8 ? "rad" : "-";
 }
 
 void check_plan(const Problem& task, const MapPlan& plan) {

@@ -7,6 +7,10 @@ namespace maxwrench {
 /// Throws std::invalid_argument, with one line, unless the plan can be carried out for the task.
 void check_plan(const Problem& task, const MapPlan& plan);
 
+/// The actuators whose limits a coordinate multiplies: indices in u. Empty: it is another
+/// coordinate, or there are none.
+std::vector<Eigen::Index> scaled_actuators(const Robot& robot, const std::string& coordinate);
+
 /// Throws std::invalid_argument, as `certify`, unless the cells have bounds with a measure and
 /// wrench.
 void require_bound(const Problem& task, const MapPlan& plan, const Case& choice);

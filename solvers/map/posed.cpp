@@ -1,12 +1,18 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "lib/math/decompositions.h"
 #include "lib/posture/free_pose.h"
 #include "maxwrench/map.h"
+#include "maxwrench/zonotope.h"
+#include "solvers/map/plan_check.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {
@@ -49,7 +55,34 @@ void choose_wrench(long number, Problem& task) {
   if (!list.wrenches.front().hold && c.norm() > 0) task.c = c / c.norm();
 }
 
+/// Multiplies the limits of some actuators, in each scenario.
+void scale_limits(const std::vector<Eigen::Index>& actuators, double factor, Problem& task) {
+  const auto scale = [&](Zonotope& set) {
+    Eigen::VectorXd u_min = set.u_min, u_max = set.u_max;
+    for (const Eigen::Index i : actuators) {
+      u_min[i] *= factor;
+      u_max[i] *= factor;
+    }
+    set = with_limits(std::move(set), u_min, u_max);
+  };
+  scale(task.robot.actuation);
+  for (ScenarioLimits& limits : task.scenarios.limits) scale(limits.actuation);
+}
+
 }  // namespace
+
+std::vector<Eigen::Index> scaled_actuators(const Robot& robot, const std::string& coordinate) {
+  std::vector<Eigen::Index> found;
+  const auto thrusters = static_cast<Eigen::Index>(robot.thrusters.size());
+  const std::vector<std::string>& known = map_coordinates();
+  const bool all = coordinate == "thrust" || coordinate == "torque";
+  if (!all && std::find(known.begin(), known.end(), coordinate) != known.end()) return found;
+  for (Eigen::Index i = 0; i < robot.actuators(); ++i) {
+    const bool such = (coordinate == "thrust") == (i < thrusters);
+    if (all ? such : actuator_name(robot, i) == coordinate) found.push_back(i);
+  }
+  return found;
+}
 
 Problem posed(const Problem& task, const std::vector<MapAxis>& over, const Eigen::VectorXd& at) {
   Problem here = task;
@@ -61,6 +94,8 @@ Problem posed(const Problem& task, const std::vector<MapAxis>& over, const Eigen
     if (name == "azimuth") azimuth = value;
     if (name == "elevation") elevation = value;
     if (name == "wrench") choose_wrench(std::lround(value), here);
+    const std::vector<Eigen::Index> scaled = scaled_actuators(task.robot, name);
+    if (!scaled.empty()) scale_limits(scaled, value, here);
     for (std::size_t axis = 0; axis < kTwistAxes.size(); ++axis) {
       if (name == kTwistAxes[axis]) offset[static_cast<Eigen::Index>(axis)] = value;
     }

@@ -45,10 +45,10 @@ std::string numbers(const Vector6d& v) {
 ordered_json object_of(const InstantMargin& at) {
   ordered_json binding = ordered_json::array();
   for (const LimitRate& limit : at.binding) {
-    binding.push_back({{"name", limit.name},
+    binding.push_back({{"actuator", limit.name},
                        {"unit", limit.unit},
-                       {"side", to_string(limit.side)},
-                       {"limit", known(std::isfinite(limit.limit), limit.limit)},
+                       {"limit", to_string(limit.side)},
+                       {"at", known(std::isfinite(limit.limit), limit.limit)},
                        {"rate", limit.rate}});
   }
   return {{"t", at.t},

@@ -121,6 +121,22 @@ ordered_json choice_json(const Answer& answer) {
   return object;
 }
 
+ordered_json worst_json(const ScenarioData& data) {
+  ordered_json deltas = ordered_json::object(), weaker = ordered_json::object();
+  for (const auto& [key, change] : data.deltas) {
+    deltas[key] = change.size() == 1 ? ordered_json(change[0]) : array(change);
+  }
+  for (const auto& [name, share] : data.weaker) weaker[name] = share;
+  return {{"wrench", known(!data.wrench.empty(), data.wrench)},
+          {"c", array(data.c)},
+          {"deltas", deltas},
+          {"current", data.current ? array(*data.current) : ordered_json(nullptr)},
+          {"dead", data.dead},
+          {"limp", data.limp},
+          {"locked", data.locked},
+          {"weaker", weaker}};
+}
+
 /// The posture and the efforts of a static task's value.
 void add_posture(const Answer& answer, ordered_json& object) {
   const Problem& problem = *answer.task;
@@ -143,6 +159,7 @@ void add_posture(const Answer& answer, ordered_json& object) {
   if (!problem.scenarios.empty()) {
     const ScenarioChoice& decides = capability.decides;
     object["decides"] = known(solved, describe(problem.scenarios, decides));
+    object["worst"] = solved ? worst_json(scenario_data(problem, decides)) : ordered_json(nullptr);
     object["critical"] = known(solved, array(capability.h));
   }
   const Eigen::MatrixXd& gradient = answer.trajectory.gradient;
@@ -168,6 +185,8 @@ void add_instants(const Answer& answer, ordered_json& object) {
     const bool decided = answer.has_value() && trajectory.decides_at >= 0;
     const auto at = static_cast<std::size_t>(std::max(0, trajectory.decides_at));
     object["decides"] = known(decided, describe(list, trajectory.decides));
+    object["worst"] = decided ? worst_json(scenario_data(*answer.task, trajectory.decides))
+                              : ordered_json(nullptr);
     object["decides_at"] = known(decided, decided ? trajectory.instants[at].t : 0.0);
   }
   if (answer.task->motion->transfer) {
@@ -209,6 +228,8 @@ ordered_json object_of(const Answer& answer) {
 }  // namespace
 
 std::string to_json(const Answer& answer) { return in_one_line(object_of(answer)); }
+
+std::string to_json(const ScenarioData& data) { return in_one_line(worst_json(data)); }
 
 std::string to_json(const Answer& answer, const std::vector<ScenarioEnds>& ends) {
   ordered_json object = object_of(answer);

@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
+#include <vector>
 
 #include "lib/math/decompositions.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/version.h"
 #include "solvers/solve/format.h"
+#include "solvers/solve/solve_from.h"
 
 namespace maxwrench {
 namespace {
@@ -58,23 +61,34 @@ Problem limited(const Problem& task, const ScenarioLimits& limits) {
 /// A joint that its brake holds rests where it is, so the search does not move it.
 void hold_locked_joints(const ScenarioLimits& limits, const Eigen::VectorXd& theta_r,
                         Problem& task) {
+  const auto thrusters = static_cast<int>(task.robot.thrusters.size());
   for (std::size_t i = 0; i < task.redundant.size(); ++i) {
-    const auto& locked = limits.locked;
-    if (std::find(locked.begin(), locked.end(), task.redundant[i]) == locked.end()) continue;
+    const auto& locked = limits.lost.locked;
+    const int actuator = thrusters + task.redundant[i];
+    if (std::find(locked.begin(), locked.end(), actuator) == locked.end()) continue;
     const auto k = static_cast<Eigen::Index>(i);
     task.theta_r_min[k] = task.theta_r_max[k] = task.theta_r_default[k] = theta_r[k];
   }
 }
+
+double value_of(const Answer& answer) { return answer.has_value() ? answer.beta() : -kInfinity; }
+
+bool is_within(const Eigen::VectorXd& theta_r, const Problem& task) {
+  return (theta_r.array() >= task.theta_r_min.array()).all() &&
+         (theta_r.array() <= task.theta_r_max.array()).all();
+}
+
+/// Evaluations of a search that continues from postures that other limits have found, if the
+/// options have no budget.
+constexpr long kContinued = 3000;
 
 class Comparison {
  public:
   Comparison(const Eigen::VectorXd& theta_r, const Options& options)
       : theta_r_(theta_r), options_(options) {}
 
-  LossEffect compare(const std::string& name, const Problem& task) {
-    Options at = options_;
-    at.search.clear();
-    LossEffect effect{name, evaluate(task, theta_r_, at), {}};
+  LossEffect compare(const std::string& name, const Problem& task) const {
+    LossEffect effect{name, at(task, theta_r_), {}};
     if (!options_.interrupted || !options_.interrupted()) {
       effect.best = solve(task, options_);
     } else {
@@ -83,12 +97,34 @@ class Comparison {
     return effect;
   }
 
+  /// Searches again from the best postures of other limits, if one of them has a larger value than
+  /// the best posture so far.
+  void improve(const Problem& task, const std::vector<Eigen::VectorXd>& postures,
+               LossEffect& effect) const {
+    if (options_.interrupted && options_.interrupted()) return;
+    std::vector<Eigen::VectorXd> better;
+    for (const Eigen::VectorXd& posture : postures) {
+      if (!is_within(posture, task)) continue;
+      if (value_of(at(task, posture)) > value_of(effect.best)) better.push_back(posture);
+    }
+    if (better.empty()) return;
+    Options options = options_;
+    if (options.budget == 0) options.budget = kContinued;
+    Answer again = solve_from(std::make_shared<const Problem>(task), better, options);
+    again.evaluations += effect.best.evaluations;
+    if (value_of(again) > value_of(effect.best)) effect.best = std::move(again);
+  }
+
  private:
+  Answer at(const Problem& task, const Eigen::VectorXd& theta_r) const {
+    Options options = options_;
+    options.search.clear();
+    return evaluate(task, theta_r, options);
+  }
+
   const Eigen::VectorXd& theta_r_;
   const Options& options_;
 };
-
-double value_of(const Answer& answer) { return answer.has_value() ? answer.beta() : -kInfinity; }
 
 std::string shown(const Answer& answer) {
   return answer.has_value() ? fmt::format("{:.5f}", answer.beta()) : "-";
@@ -118,10 +154,11 @@ Sensitivity sensitivity(const Problem& task, const Eigen::VectorXd& theta_r,
                         const std::vector<ScenarioLimits>& limits, const Options& options) {
   require_one_contact(task);
   require_full_strength(task);
-  Comparison comparison(theta_r, options);
+  const Comparison comparison(theta_r, options);
   Sensitivity result;
+  std::vector<Problem> tasks;
   for (const ScenarioLimits& each : limits) {
-    Problem with_loss = limited(task, each);
+    Problem& with_loss = tasks.emplace_back(limited(task, each));
     hold_locked_joints(each, theta_r, with_loss);
     result.effects.push_back(comparison.compare(each.name, with_loss));
   }
@@ -129,6 +166,22 @@ Sensitivity sensitivity(const Problem& task, const Eigen::VectorXd& theta_r,
   all.scenarios = list_of(task);
   all.scenarios.limits = limits;
   result.all = comparison.compare("any of these", all);
+  const auto postures = [&result](std::size_t but) {
+    std::vector<Eigen::VectorXd> found;
+    const auto add = [&found](const Answer& best) {
+      if (best.has_value()) found.push_back(best.posture.theta_r);
+    };
+    for (std::size_t i = 0; i < result.effects.size(); ++i) {
+      if (i != but) add(result.effects[i].best);
+    }
+    if (but < result.effects.size()) add(result.all.best);
+    return found;
+  };
+  comparison.improve(all, postures(limits.size()), result.all);
+  // Limits that allow more come first, so they are searched again from all that others found.
+  for (std::size_t i = limits.size(); i-- > 0;) {
+    comparison.improve(tasks[i], postures(i), result.effects[i]);
+  }
   return result;
 }
 

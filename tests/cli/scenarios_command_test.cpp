@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <sstream>
 #include <string>
@@ -27,6 +28,30 @@ TEST(ScenariosCommand, EvalSaysWhatDecides) {
   EXPECT_NEAR(object["critical"][5], object["beta"], 1e-9);
 }
 
+/// `worst` is what `decides` says in words: its changes are corners of the task's intervals, and a
+/// task in which nothing else is uncertain has the same value.
+TEST(ScenariosCommand, EvalGivesTheDataOfWhatDecides) {
+  const std::string eval = "eval examples/tasks/turn_guaranteed.toml --json";
+  const json object = json::parse(run_maxwrench(eval).out), &worst = object["worst"];
+  const std::string decides = object["decides"];
+  EXPECT_TRUE(worst["wrench"].is_null());
+  EXPECT_TRUE(worst["current"].is_null());
+  EXPECT_EQ(worst["c"], json::parse("[0, 0, 0, 0, 0, 1]"));
+  ASSERT_EQ(worst["deltas"].size(), 5u) << worst;
+  EXPECT_NEAR(std::abs(worst["deltas"]["mass.link_4"].get<double>()), 0.1, 1e-15);
+  EXPECT_NEAR(std::abs(worst["deltas"]["com.link_2"][0].get<double>()), 0.01, 1e-15);
+  EXPECT_EQ(worst["deltas"]["com.link_2"][1], 0);
+  const double trim = worst["deltas"]["trim"];
+  EXPECT_THAT(decides, HasSubstr(trim > 0 ? "trim +0.2 kg" : "trim -0.2 kg"));
+  for (const char* lost : {"dead", "limp", "locked", "weaker"}) EXPECT_TRUE(worst[lost].empty());
+  const json both =
+      json::parse(run_maxwrench("eval examples/tasks/turn_both_ways.toml --json").out);
+  EXPECT_EQ(both["worst"]["wrench"], "wrench 1");
+  EXPECT_EQ(both["worst"]["c"], json::parse("[0, 0, 0, 0, 0, 1]"));
+  const json plain = json::parse(run_maxwrench("eval uvms/valve --json").out);
+  EXPECT_FALSE(plain.contains("worst"));
+}
+
 /// In time as well, with the instant.
 TEST(ScenariosCommand, EvalSaysWhatDecidesInTime) {
   const std::string eval = "eval examples/tasks/turn_along_with_a_dead_thruster.toml --scenarios";
@@ -43,6 +68,8 @@ TEST(ScenariosCommand, EvalSaysWhatDecidesInTime) {
     name = each["name"];
   }
   EXPECT_EQ(object["decides"], name);
+  ASSERT_EQ(object["worst"]["dead"].size(), 1u);
+  EXPECT_EQ(object["worst"]["dead"][0].get<std::string>() + " dead", name);
   EXPECT_NEAR(object["beta"], least, 1e-6);
   bool found = false;
   for (const json& instant : object["instants"]) found |= instant["t"] == object["decides_at"];

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "maxwrench/capability.h"
 #include "tests/support/coded_tasks.h"
 
 namespace maxwrench {
@@ -33,6 +34,33 @@ TEST(Losses, EveryThrusterMayBeDead) {
     EXPECT_EQ(dead.actuation.u_min, u_min);
     EXPECT_EQ(dead.actuation.B, robot.actuation.B);
   }
+}
+
+/// A scenario names its actuators: those that are lost, and by which share others are weaker.
+TEST(Losses, ScenariosNameTheirActuators) {
+  TaskSpec spec = valve_with({.cases = {{"q3_elbow", "rear_left_vertical"}}, .friction = 0.5});
+  spec.uncertainty = UncertaintySpec{.thrust = 0.1};
+  const auto data_of = [](const TaskSpec& task, int limits) {
+    const Problem problem = make_problem(task);
+    ScenarioChoice choice;
+    choice.limits = limits;
+    choice.cases.resize(problem.scenarios.loads.size());
+    return scenario_data(problem, choice);
+  };
+  ScenarioData data = data_of(spec, 1);
+  EXPECT_THAT(data.dead, ElementsAre("rear_left_vertical"));
+  EXPECT_THAT(data.limp, ElementsAre("q3_elbow"));
+  EXPECT_THAT(data.locked, ElementsAre());
+  EXPECT_EQ(data.weaker.size(), 7u);
+  for (const auto& [name, share] : data.weaker) {
+    EXPECT_EQ(share, 0.1);
+    EXPECT_NE(name, "rear_left_vertical");
+  }
+  EXPECT_FALSE(data.current);
+  EXPECT_EQ(data_of(spec, 0).weaker.size(), 8u);
+  data = data_of(valve_with({.cases = {{"joints"}}, .joints_lock = true}), 1);
+  EXPECT_EQ(data.locked.size(), 4u);
+  EXPECT_THAT(data.limp, ElementsAre());
 }
 
 TEST(Losses, LossesOfSeveral) {

@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "maxwrench/capability.h"
 #include "maxwrench/load.h"
 #include "tests/support/coded_tasks.h"
 
@@ -75,6 +76,44 @@ TEST(UncertainLoads, BuoyancyCarries) {
   ASSERT_EQ(group.size(), 4u);
   EXPECT_EQ(group[0].name, "link_4 volume +1e-05 m^3, cob.y +0.01 m");
   expect_load(group[0], 4, -0.00998, -998 * Vector3d(0, 1.44e-4 * 0.01, -1e-5 * 0.1195));
+}
+
+/// Each case tells its changes by the keys of the task.
+TEST(UncertainLoads, CasesHaveDeltas) {
+  UncertaintySpec uncertainty;
+  uncertainty.mass = {{"link_4", 0.1}, {"link_2", 0.05}};
+  uncertainty.com = {{"link_4", {0.01, 0, 0.02}}};
+  uncertainty.cob = {{"vehicle", {0, 0, 0.005}}};
+  uncertainty.trim = 0.2;
+  uncertainty.payload_mass = 0.5;
+  uncertainty.current_speed = 0.3;
+  uncertainty.current_directions = 4;
+  const Problem task = make_problem(valve_with(uncertainty));
+  // link_2, link_4, the buoyancy of the vehicle, trim, payload, current.
+  ASSERT_EQ(task.scenarios.loads.size(), 6u);
+  ScenarioChoice choice;
+  choice.cases = {1, 5, 0, 1, 0, 2};  // of link_4, bits 0 and 2 of its corner: mass and com.z less
+  const ScenarioData data = scenario_data(task, choice);
+  ASSERT_EQ(data.deltas.size(), 6u);
+  const auto expect = [&](std::size_t i, const char* key, const Eigen::VectorXd& change) {
+    EXPECT_EQ(data.deltas[i].key, key);
+    EXPECT_EQ(data.deltas[i].change, change) << key;
+  };
+  const auto one = [](double x) { return Eigen::VectorXd::Constant(1, x); };
+  expect(0, "mass.link_2", one(-0.05));
+  expect(1, "mass.link_4", one(-0.1));
+  expect(2, "com.link_4", Vector3d(0.01, 0, -0.02));
+  expect(3, "cob.vehicle", Vector3d(0, 0, 0.005));
+  expect(4, "trim", one(-0.2));
+  expect(5, "payload.mass", one(0));
+  ASSERT_TRUE(data.current);
+  EXPECT_LT((*data.current - Vector3d(0, 0.3, 0)).norm(), 1e-15);
+  EXPECT_TRUE(data.wrench.empty() && data.dead.empty() && data.weaker.empty());
+  choice.cases.back() = 0;
+  EXPECT_EQ(*scenario_data(task, choice).current, Vector3d(0, 0, 0));
+  EXPECT_EQ(describe(task.scenarios, choice),
+            "link_2 mass -0.05 kg; link_4 mass -0.1 kg, com.x +0.01 m, com.z -0.02 m; vehicle "
+            "cob.z +0.005 m; trim -0.2 kg");
 }
 
 TEST(UncertainLoads, TrimAndAnUnknownPayload) {

@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "lib/scenario/ball_across.h"
 #include "lib/scenario/scenario_list.h"
 #include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/trajectory/instant_bound.h"
@@ -55,7 +57,34 @@ class RestingBound final : public Bound {
   Eigen::VectorXd none_;
 };
 
-std::unique_ptr<Bound> bound_alone(const PlanInstant& at, Wrench wrench) {
+/// The task of a ball: c is its first axis, and W has a column for each axis.
+Problem with_ball(Problem task, const WrenchBall& ball) {
+  const Matrix6Xd F = task.W_any.rightCols(task.W_any.cols() - 1);
+  task.W_any.resize(6, ball.E.cols() + F.cols());
+  task.W_any << ball.E, F;
+  return task;
+}
+
+/// A ball of one axis is a wrench of each sign. One of two axes stands for its first axis.
+Problem with_wrenches_of_ball(Problem problem) {
+  ScenarioList& list = problem.scenarios;
+  if (!list.ball) return problem;
+  std::vector<ScenarioWrench> wrenches;
+  for (const ScenarioWrench& each : list.wrenches) {
+    wrenches.push_back(each);
+    if (each.hold) continue;
+    wrenches.back().c = list.ball->radius * list.ball->E.col(0);
+    if (list.ball->E.cols() == 2) continue;
+    wrenches.push_back(wrenches.back());
+    wrenches.back().c *= -1;
+  }
+  list.wrenches = std::move(wrenches);
+  return problem;
+}
+
+/// `disc` is a ball of two axes, or null.
+std::unique_ptr<Bound> bound_alone(const PlanInstant& at, Wrench wrench, const WrenchBall* disc) {
+  if (disc) return make_ball_any_bound(at.task, disc->E);
   if (wrench == Wrench::kAny) return make_any_wrench_bound(at.task);
   if (at.rests()) return make_pure_bound(at.task, "linf_polytope");
   return std::make_unique<RestingBound>(make_instant_bound(at), at.task.redundancy());
@@ -119,7 +148,10 @@ std::vector<std::vector<const LoadCase*>> choices_of(const Problem& problem, Wre
 
 /// The scenarios with a wrench and finite limits. Those that have no bound are left out if others
 /// have one: the least of some bounds is a bound of the list.
-std::vector<Alone> scenarios_alone(const Problem& problem, Wrench wrench) {
+std::vector<Alone> scenarios_alone(const Problem& list_task, Wrench wrench) {
+  const Problem problem = with_wrenches_of_ball(list_task);
+  const std::optional<WrenchBall>& ball = problem.scenarios.ball;
+  const WrenchBall* disc = ball && ball->E.cols() == 2 ? &*ball : nullptr;
   const auto choices = choices_of(problem, wrench);
   const int count = scenario_count(problem);
   if (static_cast<std::size_t>(count) * choices.size() > kMostAlone) {
@@ -131,13 +163,14 @@ std::vector<Alone> scenarios_alone(const Problem& problem, Wrench wrench) {
   std::vector<Alone> all;
   std::string why;  // one has no bound
   for (int i = 0; i < count; ++i) {
-    const ScenarioTask one = scenario_alone(problem, i);
+    ScenarioTask one = scenario_alone(problem, i);
+    if (disc && one.length > 0) one.task = with_ball(std::move(one.task), *disc);
     const Zonotope& set = one.task.robot.actuation;
     if (one.length == 0 || !set.u_min.allFinite() || !set.u_max.allFinite()) continue;
     for (const auto& cases : choices) {
       auto at = std::make_shared<const PlanInstant>(instant_with(one.task, cases));
       try {
-        std::unique_ptr<Bound> bound = bound_alone(*at, wrench);
+        std::unique_ptr<Bound> bound = bound_alone(*at, wrench, disc);
         all.push_back({std::move(at), one.length, std::move(bound)});
       } catch (const std::invalid_argument& error) {
         why = error.what();
@@ -217,7 +250,8 @@ bool has_still_water(const ScenarioList& list) {
 std::unique_ptr<Bound> make_alone_list_bound(const Problem& problem, Wrench wrench) {
   const ScenarioList& list = problem.scenarios;
   const char* const where = wrench == Wrench::kAny ? "any wrenches" : "a known current";
-  if (list.ball || list.payload) {
+  const bool any_ball = wrench == Wrench::kAny && BallAcross::supports(list);
+  if (list.payload || (list.ball && !any_ball)) {
     reject_alone(problem, std::string(where) + " with a ball or a payload", "wrenches one by one");
   }
   if (problem.contact || !problem.dependent.empty() || problem.free.count() > 0) {

@@ -49,6 +49,20 @@ std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string
 ///             o_0 - mu'tau_0 + (o - A'mu)'u.
 std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem);
 
+/// For a disc of wrenches E z, |z| <= beta, with any wrenches across it: P = {z : some efforts
+/// balance E z and some free components} is convex, and beta is the least of its supports. So the
+/// support along any direction d is a bound, and no value in the box exceeds
+///
+///     U(d, mu) = s(mu) + max over control points v and u within limits of
+///                sum_i d_i o_0,i - mu'tau_0 + (sum_i d_i o_i - A'mu)'u,   |d| = 1,
+///
+/// with o_0, o, tau_0 and A of `make_any_wrench_bound` for each axis of E. W has the columns of E
+/// and the free components. The program along d has one multiplier more, of the equation that the
+/// wrench across d is zero; it turns d to the normal of the edge of P that the ray along d meets.
+/// Directions begin with that of the larger box, and with the nearest edge at the centre of the
+/// box. The multiplier is [d; mu].
+std::unique_ptr<Bound> make_ball_any_bound(const Problem& problem, const Matrix6Xd& E);
+
 /// A bound of linf_polytope of a list of scenarios, with pure wrenches. A value t of the list is a
 /// factor of every scenario s, so for any lambda_s and nu
 ///
@@ -69,9 +83,10 @@ bool has_still_water(const ScenarioList& list);
 /// the optimum where two scenarios meet in a ridge. A scenario in a current v_c is an instant of a
 /// motion at -v_c through still water (`make_instant_bound`). The multiplier is [number of the
 /// scenario; its own multiplier]; scenarios that only hold and those with infinite limits are left
-/// out. Throws std::invalid_argument, with one line, for a ball, a payload, a pose that is partly
-/// free, dependent joints, any wrenches in a current and more than 64 scenarios, and as the bounds
-/// of single tasks.
+/// out. Of a ball with any wrenches each scenario has `make_ball_any_bound`. Throws
+/// std::invalid_argument, with one line, for a payload, other balls, a pose that is partly free,
+/// dependent joints, any wrenches in a current and more than 64 scenarios, and as the bounds of
+/// single tasks.
 std::unique_ptr<Bound> make_alone_list_bound(const Problem& problem, Wrench wrench);
 
 /// Magnitudes of tau and a in the six axes of the base, beyond the limits of sliding coordinates.

@@ -1,3 +1,4 @@
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -39,6 +40,7 @@ TEST(ExplainCommand, AddsAKeyToTheJson) {
   ASSERT_EQ(what["binding"].size(), 2U);
   double sum = 0;
   for (const json& limit : what["binding"]) {
+    EXPECT_THAT(limit["actuator"].get<std::string>(), testing::StartsWith("front_"));
     EXPECT_EQ(limit["limit"], "min");
     EXPECT_EQ(limit["at"], -40);
     EXPECT_NEAR(limit["rate"], -0.38410, 5e-6);

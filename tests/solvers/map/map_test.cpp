@@ -10,8 +10,10 @@
 #include "lib/math/random.h"
 #include "maxwrench/evaluations.h"
 #include "maxwrench/load.h"
+#include "maxwrench/solve.h"
 #include "maxwrench/task.h"
 #include "tests/support/maps.h"
+#include "tests/support/scenario_task.h"
 
 namespace maxwrench {
 namespace {
@@ -93,6 +95,28 @@ TEST(Map, WrenchesOfTheEndEffectorTurn) {
   const std::vector<MapAxis> both = {{"yaw", 0, 2, 2}, {"azimuth", 0, 2, 2}};
   const Problem back = posed(task, both, Eigen::Vector2d(M_PI / 2, -M_PI / 2));
   EXPECT_NEAR(back.c[0], 1, 1e-12);
+}
+
+/// A factor of limits is what an uncertain strength makes of them, also of a list with a loss; and
+/// for a single actuator it changes its own limits only.
+TEST(Map, FactorsAreThoseOfLimits) {
+  const std::string loss = "[loss]\nany = 1\n";
+  for (const std::string& tables : {std::string(), loss}) {
+    const Problem task = scenario_task(kLift, tables);
+    for (const char* key : {"thrust", "torque"}) {
+      const Problem weaker = scenario_task(kLift, tables + "[uncertainty]\n" + key + " = 0.3\n");
+      const Problem here = posed(task, {{key, 0.5, 1, 2}}, Eigen::VectorXd::Constant(1, 0.7));
+      const double expected = evaluate(weaker, task.theta_r_default).beta();
+      EXPECT_NEAR(evaluate(here, task.theta_r_default).beta(), expected, 1e-9) << key;
+      EXPECT_LT(expected, evaluate(task, task.theta_r_default).beta() + 1e-9);
+    }
+  }
+  const Problem task = load_problem("uvms/lift");
+  const Problem here = posed(task, {{"q3_elbow", 2, 3, 2}}, Eigen::VectorXd::Constant(1, 3));
+  Eigen::VectorXd u_max = task.robot.actuation.u_max;
+  u_max[10] *= 3;
+  EXPECT_EQ(here.robot.actuation.u_max, u_max);
+  EXPECT_STREQ(map_unit("q3_elbow"), "-");
 }
 
 TEST(Map, IsTheSameAtAnyNumberOfThreadsAndInParts) {

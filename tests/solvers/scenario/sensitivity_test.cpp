@@ -39,6 +39,36 @@ TEST(Sensitivity, SLOW_OfOneThrusterIsThatOfTheIndependentModel) {
   EXPECT_LT(text.find("front_right_vertical dead"), text.find("nothing"));  // worst first
 }
 
+/// With a budget that is too small for the search, each line still has at least what the best
+/// posture of any other line gives it: so no loss is worth more than all actuators, and none less
+/// than all losses together.
+TEST(Sensitivity, NoLossIsWorthMoreThanAllActuators) {
+  const Problem task = load_problem("uvms/valve");
+  std::vector<ScenarioLimits> limits = one_loss(task);
+  for (Eigen::Index joint = 8; joint < 12; ++joint) {
+    Eigen::VectorXd u_min = task.robot.actuation.u_min, u_max = task.robot.actuation.u_max;
+    u_min[joint] = -0.5;
+    u_max[joint] = 0.5;
+    limits.push_back({"limp", with_limits(task.robot.actuation, u_min, u_max), true});
+  }
+  for (int seed = 1; seed <= samples(20); ++seed) {
+    Options options;
+    options.search = "crs2";
+    options.budget = 100;
+    options.seed = static_cast<std::uint64_t>(seed);
+    const Sensitivity result = sensitivity(task, task.theta_r_default, limits, options);
+    const auto best = [&](std::size_t i) {
+      const Answer& answer = result.effects[i].best;
+      return answer.has_value() ? answer.beta() : -kInfinity;
+    };
+    for (std::size_t i = 1; i < 6; ++i) EXPECT_GE(best(0), best(i) - 1e-9) << seed;
+    if (!result.all.best.has_value()) continue;
+    for (std::size_t i = 0; i < 6; ++i) {
+      EXPECT_GE(best(i), result.all.best.beta() - 1e-9) << seed;
+    }
+  }
+}
+
 /// A joint that its brake holds rests where it is. At a given posture this costs nothing: all
 /// efforts of the intact robot are still possible.
 TEST(Sensitivity, LockedJointsRest) {
@@ -51,7 +81,8 @@ TEST(Sensitivity, LockedJointsRest) {
   options.budget = 2000;
   const Sensitivity result = sensitivity(
       task, task.theta_r_default,
-      {{"shoulder", with_limits(task.robot.actuation, u_min, u_max), true, {1}}}, options);
+      {{"shoulder", with_limits(task.robot.actuation, u_min, u_max), true, {.locked = {9}}}},
+      options);
   const LossEffect& locked = result.effects[0];
   ASSERT_TRUE(locked.best.has_value());
   EXPECT_EQ(locked.best.posture.theta_r[1], task.theta_r_default[1]);

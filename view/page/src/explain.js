@@ -16,7 +16,7 @@ function namedTable(head, rows) {
   return make("table", { class: "numbers named" }, make("thead", {}, row("th", ...head)), make("tbody", {}, ...lines));
 }
 
-const nameOf = (limit) => `${words(limit.name)}, ${kSides[limit.limit] ?? limit.limit}`;
+const nameOf = (limit) => `${words(limit.actuator ?? limit.name)}, ${kSides[limit.limit] ?? limit.limit}`;
 
 /** Limits, what 10 % more of each gives, and between which values that rate holds. */
 function bindingTable({ binding }, unit) {

@@ -20,6 +20,8 @@ struct AloneForm {
   Wrench allowed;
 };
 
+constexpr const char* kHorizontalDisc = "ball = { axes = [\"fx\", \"fy\"], radius = 2 }";
+
 std::vector<AloneForm> alone_forms() {
   const std::string flow = "[environment]\ncurrent = [0.4, -0.2, 0.1]\n";
   const std::string loss =
@@ -30,7 +32,14 @@ std::vector<AloneForm> alone_forms() {
           {"set = [[0, 0, 20, 0, 0, 0], [0, 0, 0, 0, 0, 2]]", flow, Wrench::kPure},
           {kTurn, loss, Wrench::kAny},
           {kLift, loss + "[uncertainty]\ntrim = 0.2\ncom.link_2 = [0.01, 0, 0]\n", Wrench::kAny},
-          {"set = [[0, 0, 0, 0, 0, 3], [0, 0, 0, 0, 0, -2]]", "", Wrench::kAny}};
+          {"set = [[0, 0, 0, 0, 0, 3], [0, 0, 0, 0, 0, -2]]", "", Wrench::kAny},
+          {kHorizontalDisc, loss, Wrench::kAny},
+          {"ball = { axes = [\"tx\", \"tz\"], radius = 0.5 }\nhold = true",
+           "[uncertainty]\ntrim = 0.2\n", Wrench::kAny},
+          {"ball = { axes = [\"fz\"], radius = 3 }", loss, Wrench::kAny},
+          {"ball = { axes = [\"tx\", \"tz\"], radius = 0.5 }\nany = [\"fx\", \"tx\", \"tz\"]", "",
+           Wrench::kAny},
+          {"set = [[1, 0, 0, 0, 0, 0], [0, 0, -1, 0, 0, 0]]", loss, Wrench::kAny}};
 }
 
 /// No posture of a box exceeds its bound, and that of a small box is close.
@@ -104,6 +113,41 @@ TEST(AloneListBound, SLOW_ProvesTheBestPostureInAKnownCurrent) {
   EXPECT_GT(proof.answer.capability.beta, evaluate(task, task.theta_r_default).beta());
   EXPECT_THROW(certify(task, Options(), {.gap = 1e-2, .keep_certificate = true}),
                std::invalid_argument);
+}
+
+/// At a point the bound of a disc with any wrenches is its value: the program turns to the normal
+/// of the nearest edge, so no choice of directions remains.
+TEST(AloneListBound, OfADiscIsExactAtAPoint) {
+  Problem task = scenario_task(kHorizontalDisc, "[uncertainty]\ntrim = 0.2\n");
+  task.robot.collision = nullptr;
+  Options options;
+  options.wrench = Wrench::kAny;
+  const auto bound = make_capability_bound(task, "linf_polytope", Wrench::kAny);
+  const auto objective =
+      make_capability_objective(task, Wrench::kAny, resolve(task, options).make_measure);
+  Random random(5);
+  for (int values = 0; values < 20;) {
+    const Eigen::VectorXd at = random_theta_r(task, random);
+    const double value = evaluate_one(*objective, at);
+    if (!std::isfinite(value)) continue;
+    ++values;
+    BoxProof proof;
+    bound->evaluate(at, at, value - 1e-4 * (1 + value), bound->ceiling(), proof);
+    EXPECT_NEAR(proof.high, value, 2e-6 * (1 + value));
+  }
+}
+
+/// The best force in any horizontal direction with any other components, proven. The independent
+/// model has 88.01 N in the default posture.
+TEST(AloneListBound, SLOW_ProvesADiscWithAnyWrenches) {
+  const Problem task = scenario_task(kHorizontalDisc, "");
+  Options options;
+  options.wrench = Wrench::kAny;
+  const Proof proof = certify(task, options, {.gap = 0.1, .seconds = 600});
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  EXPECT_LE(proof.gap(), 0.1 * (1 + 1e-9));
+  EXPECT_GE(2 * proof.answer.capability.beta, 88.01);
+  EXPECT_NE(why_no_certificate(task, Wrench::kAny), "");
 }
 
 TEST(AloneListBound, RejectsWhatItDoesNotBound) {
