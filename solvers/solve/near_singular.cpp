@@ -1,8 +1,11 @@
 #include "solvers/solve/near_singular.h"
 
+#include <memory>
+
 #include "lib/robot/chain.h"
 #include "lib/robot/gears.h"
 #include "lib/robot/kinematics.h"
+#include "maxwrench/measure.h"
 #include "maxwrench/wrench_program.h"
 #include "solvers/solve/method.h"
 
@@ -65,7 +68,7 @@ std::optional<JointOff> find_joint_off(const Answer& answer) {
   if (!has_wrench_of_one_tool(answer)) return std::nullopt;
   const Robot& robot = answer.task->robot;
   Nearby nearby(answer);
-  JointOff least{.beta = kMuch * answer.beta()};
+  JointOff least{"", 0, kMuch * answer.beta()};
   for (const int i : chain_to(robot, answer.task->end_effector)) {
     const Joint& joint = robot.joints[static_cast<std::size_t>(i)];
     if (joint.type != JointType::kRevolute || joint.gear) continue;

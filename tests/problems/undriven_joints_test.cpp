@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lib/robot/kinematics.h"
+#include "maxwrench/load.h"
 #include "tests/support/support.h"
 
 // Joints beside the way to the tool without an effort: they stay where positions put them.
@@ -17,9 +18,9 @@
 namespace maxwrench {
 namespace {
 
+using Eigen::Vector3d;
 using testing::Contains;
 using testing::HasSubstr;
-using Eigen::Vector3d;
 
 /// Two driven joints carry the tool. Beside the tool hang a wrist (slides) and on it a flap (turns
 /// about a skew axis), with eccentric masses and no motors, and a leaf that mimics the flap.
@@ -177,8 +178,7 @@ TEST_F(Undriven, TasksTakeThem) {
 /// The lift of one joint: (100 - tau_a) / x, x the tool's distance from the joint's axis.
 TEST_F(Undriven, EvalTakesThem) {
   const CommandResult result = run_maxwrench(
-      "eval robot.urdf --tool tool --joints a=0.3,b=0.7,slide=0.2,turn=1.3 --json",
-      folder_.path());
+      "eval robot.urdf --tool tool --joints a=0.3,b=0.7,slide=0.2,turn=1.3 --json", folder_.path());
   ASSERT_EQ(result.exit_status, 0) << result.err;
   Peer peer(file_);
   peer.place({{"a", 0.3}, {"b", 0.7}, {"slide", 0.2}, {"turn", 1.3}, {"follow", 0.1 - 0.65}});

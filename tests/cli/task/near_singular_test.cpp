@@ -17,8 +17,9 @@ using nlohmann::json;
 using testing::HasSubstr;
 using testing::Not;
 
-/// Two rods of 1 m without mass turn about z by 10 N m each: the tool is at (cos a + cos ab, sin a +
-/// sin ab) with ab = a + b. A force F along x loads the joints by -F (sin a + sin ab) and -F sin ab.
+/// Two rods of 1 m without mass turn about z by 10 N m each: the tool is at (cos a + cos ab, sin a
+/// + sin ab) with ab = a + b. A force F along x loads the joints by -F (sin a + sin ab) and -F sin
+/// ab.
 class StretchedArm : public testing::Test {
  protected:
   StretchedArm() {
@@ -80,7 +81,8 @@ TEST_F(StretchedArm, BrakesOfAParkedBaseAreNoMotors) {
   EXPECT_NEAR(answer["near_singular"]["beta"], 5 / std::sin(0.01), 1e-2);
 }
 
-/// What a thruster bears is no structure: a vehicle has no such line, although its arm is stretched.
+/// What a thruster bears is no structure: a vehicle has no such line, although its arm is
+/// stretched.
 TEST(NearSingular, ThrustersBearTheWrench) {
   const json answer =
       json::parse(run_maxwrench("eval planar/force --theta-r -0.8436,1.047 --json").out);
