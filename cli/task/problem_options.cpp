@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cli/cli.h"
+#include "lib/robot/chain.h"
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
 #include "problems/loader/urdf_tree.h"
