@@ -23,7 +23,7 @@ set(maxwrench_solvers_sources
   search/restart.cpp search/sample.cpp
   search/factor_program.cpp search/slp.cpp search/slp_outcome.cpp search/slp_run.cpp search/starts.cpp search/trace.cpp
   solve/active_limits.cpp solve/answer_json.cpp solve/evaluate_each.cpp solve/experiment.cpp solve/format.cpp
-  solve/held.cpp solve/held_text.cpp solve/json_line.cpp solve/method.cpp solve/row.cpp solve/scenario_alone.cpp
+  solve/held.cpp solve/held_text.cpp solve/json_line.cpp solve/method.cpp solve/near_singular.cpp solve/row.cpp solve/scenario_alone.cpp
   solve/scenario_ends.cpp solve/scenario_sample.cpp solve/sensitivity.cpp solve/solve.cpp solve/summary.cpp
   solve/tank.cpp solve/tank_scenarios.cpp solve/why_none.cpp
   added_strategies.cpp strategies.cpp strategy_lookup.cpp

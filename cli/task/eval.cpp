@@ -53,7 +53,8 @@ void require_program(const Problem& problem, const Options& options) {
 
 Answer answer_of(const Problem& problem, const EvalOptions& options, const Options& how) {
   if (options.source.gives_joints()) {
-    return evaluate_posture(problem, options.source.positions(problem.robot), how);
+    return evaluate_posture(
+        problem, options.source.positions(problem.robot, is_urdf(options.choice.problem)), how);
   }
   if (problem.motion) return evaluate(problem, knots_of(problem, options.theta_r), how);
   return evaluate(problem, theta_r_of(problem, options.theta_r), how);

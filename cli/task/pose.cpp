@@ -101,7 +101,7 @@ Robot load_posed_robot(const PoseOptions& options) {
 
 void pose(const PoseOptions& options) {
   const Robot robot = load_posed_robot(options);
-  const Eigen::VectorXd q = options.source.positions(robot);
+  const Eigen::VectorXd q = options.source.positions(robot, is_urdf(options.file));
   const Places places = find_places(robot, q, options.jacobian);
   if (options.json) {
     print_places_object(robot, q, places);

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "cli/cli.h"
+#include "lib/robot/chain.h"
 #include "problems/loader/bad_input.h"
 #include "problems/loader/block.h"
 #include "problems/loader/urdf_tree.h"
@@ -108,24 +109,23 @@ std::map<std::string, double> parse_joints(const char* option, const std::string
 }
 
 /// The option that gives this key of a task made of a URDF; empty if none does.
-std::string option_of(const std::string& key, bool by_joints, bool gives_rest) {
+std::string option_of(const std::string& key, const ProblemOptions& options) {
   if (key == "end_effector" || key == "tool") return "--tool";
   if (key == "wrench.c") return "--wrench-along";
   if (key == "base.axes") return "--base";
-  if (key == "pose.xyz" || key == "pose") return by_joints ? "--joints" : "--at";
+  if (key == "pose.xyz" || key == "pose") return options.gives_joints() ? "--joints" : "--at";
+  if (key == "positions") return options.joints ? "--joints" : "--posture";
   if (key == "posture") return "--posture";
   if (key == "group") return "--group";
-  if (key == "rest") return gives_rest ? "--rest" : "--posture";
+  if (key == "rest") return options.rest ? "--rest" : "--posture";
   return "";
 }
 
 /// Calls `make`. If it rejects a key that an option gives, names the option.
 ///
-/// @param by_joints         whether the pose is given by joints
 /// @param evaluates_joints  whether the joints themselves are evaluated, at any posture
-/// @param gives_rest        whether `--rest` is given; else `--posture` gives what rests
 template <class Make>
-auto naming_options(bool by_joints, bool evaluates_joints, bool gives_rest, const Make& make) {
+auto naming_options(const ProblemOptions& options, bool evaluates_joints, const Make& make) {
   try {
     return make();
   } catch (const BadInput& error) {
@@ -134,11 +134,11 @@ auto naming_options(bool by_joints, bool evaluates_joints, bool gives_rest, cons
       reject("--joints", bad.key().substr(kJointKey.size()), bad.expected());
     }
     if (bad.key() == "theta_r.joints") {  // which the program chose
-      throw BadValue(by_joints ? "--joints" : "--at", "a pose that is singular",
+      throw BadValue(options.gives_joints() ? "--joints" : "--at", "a pose that is singular",
                      fmt::format("one from which the tool can move in all its directions{}",
                                  evaluates_joints ? "" : " (only eval --joints does without)"));
     }
-    const std::string option = option_of(bad.key(), by_joints, gives_rest);
+    const std::string option = option_of(bad.key(), options);
     if (option.empty()) throw;
     throw BadValue(option, bad.got(), bad.expected());
   }
@@ -274,8 +274,10 @@ UrdfOptions ProblemOptions::urdf_options() const {
   if (rest && (rest->find('=') != std::string::npos || is_file(*rest))) {
     options.rest = parse_joints("--rest", *rest);
   } else {
-    options.rest_posture = rest ? *rest : options.group.empty() ? "" : posture.value_or("");
+    options.rest_posture = rest.value_or("");
   }
+  options.posture = posture.value_or("");
+  if (joints) options.positions = parse_joints("--joints", *joints);
   options.packages.assign(packages.begin(), packages.end());
   return options;
 }
@@ -289,7 +291,7 @@ TaskSpec ProblemOptions::task(const std::string& problem, bool evaluates_joints)
     task.pose = parse_pose(*at);
   } else if (joints && !evaluates_joints) {
     task.posture = parse_joints("--joints", *joints);
-  } else {
+  } else if (!posture || evaluates_joints) {
     task.posture.emplace();
   }
   return task;
@@ -302,11 +304,9 @@ Problem ProblemOptions::load(const std::string& problem, bool evaluates_joints) 
     if (counts_warnings) remark_warnings(loaded.robot, *this, problem);
     return loaded;
   }
-  UrdfOptions options = urdf_options();
-  if (!evaluates_joints) options.posture = posture.value_or("");
-  Problem made = naming_options(
-      gives_joints(), evaluates_joints && gives_joints(), rest.has_value(),
-      [&] { return make_urdf_problem(problem, options, task(problem, evaluates_joints)); });
+  Problem made = naming_options(*this, evaluates_joints && gives_joints(), [&] {
+    return make_urdf_problem(problem, urdf_options(), task(problem, evaluates_joints));
+  });
   if (!counts_warnings) return made;
   remark_warnings(made.robot, *this, problem);
   if (!at && !gives_joints()) {
@@ -319,8 +319,7 @@ Problem ProblemOptions::load(const std::string& problem, bool evaluates_joints) 
 
 Robot ProblemOptions::load_robot(const std::string& file) const {
   if (is_urdf(file)) {
-    return naming_options(false, false, rest.has_value(),
-                          [&] { return load_urdf(file, urdf_options()); });
+    return naming_options(*this, false, [&] { return load_urdf(file, urdf_options()); });
   }
   reject_for_toml(file, true);
   const LoadOptions options{limits.value_or("")};
@@ -330,11 +329,15 @@ Robot ProblemOptions::load_robot(const std::string& file) const {
   return maxwrench::load_robot(file, options);
 }
 
-Eigen::VectorXd ProblemOptions::positions(const Robot& robot) const {
+Eigen::VectorXd ProblemOptions::positions(const Robot& robot, bool of_urdf) const {
   TaskSpec task;
   task.robot = robot;
   task.posture.emplace();
   if (joints) task.posture = parse_joints("--joints", *joints);
+  if (joints && of_urdf) {  // joints that are locked there are no longer the robot's
+    std::erase_if(*task.posture,
+                  [&](const auto& each) { return find_joint(robot, each.first) < 0; });
+  }
   if (posture) task.posture = named_posture(robot, "--posture", *posture);
   try {
     return joints_at_posture(task);

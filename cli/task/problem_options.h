@@ -47,7 +47,9 @@ struct ProblemOptions {
   /// Loads a robot: a URDF, a robot file, or that of a task.
   Robot load_robot(const std::string& file) const;
   /// The positions of all joints that the options give; other joints are at rest.
-  Eigen::VectorXd positions(const Robot& robot) const;
+  ///
+  /// @param of_urdf  whether the robot was made of a URDF with these options
+  Eigen::VectorXd positions(const Robot& robot, bool of_urdf) const;
 
  private:
   void reject_for_toml(const std::string& problem, bool evaluates_joints) const;

@@ -57,7 +57,7 @@ void print_terms_object(const Problem& problem, const std::string& file, const T
 
 void print_row(std::string_view name, const Eigen::VectorXd& values) {
   fmt::print("{:<18}", name);
-  for (const double value : values) fmt::print(" {:>10.5f}", value);
+  for (const double value : values) fmt::print(" {:>10}", decimals(value));
   fmt::print("\n");
 }
 

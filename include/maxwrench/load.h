@@ -34,7 +34,12 @@ struct UrdfOptions {
   /// along them, and its brakes hold any load.
   std::vector<int> base_axes = {};
   std::filesystem::path srdf = {};  ///< collision pairs to leave out, and named postures; optional
-  std::string posture = "";  ///< for `make_urdf_problem`: the named posture that gives the pose
+  /// The named posture that gives the pose, for `make_urdf_problem`. Joints that `locks_undriven`
+  /// locks stay there.
+  std::string posture = "";
+  /// Positions [rad or m]: a joint that `locks_undriven` locks stays there, in place of at rest.
+  /// Other joints of the map only have to exist and to move.
+  std::map<std::string, double> positions = {};
   /// Folders of packages, in which `package://` is searched before other places.
   std::vector<std::filesystem::path> packages = {};
   /// The group of the SRDF whose joints alone move; without `tool`, its tips are the end effectors.
@@ -60,9 +65,11 @@ Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options = 
 /// @param urdf     the URDF
 /// @param options  the robot
 /// @param task     pose or posture, wrench and others; `TaskSpec::robot` and, if it is empty,
-///                 `TaskSpec::end_effector` are set here. A posture without joints is that at
+///                 `TaskSpec::end_effector` are set here. Without a posture,
+///                 `UrdfOptions::posture` gives it. A posture without joints is that at
 ///                 rest; if the end effector cannot move from there in all its directions, or
-///                 bodies collide, another posture is chosen.
+///                 bodies collide, another posture is chosen. Joints of `UrdfOptions::positions`
+///                 that are locked are left out of the posture.
 /// @throws std::invalid_argument as `load_robot`.
 Problem make_urdf_problem(const std::filesystem::path& urdf, const UrdfOptions& options,
                           TaskSpec task);

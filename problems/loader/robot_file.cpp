@@ -14,6 +14,7 @@
 #include "problems/loader/robot_srdf.h"
 #include "problems/loader/urdf_tree.h"
 #include "problems/make/robot.h"
+#include "problems/make/theta_r.h"
 
 namespace maxwrench {
 namespace {
@@ -229,6 +230,13 @@ void require_group_for_rest(const UrdfOptions& options) {
                  "none without a group");
 }
 
+/// Rejects positions of joints that neither move nor stay where they are told.
+void require_joints(std::map<std::string, double> positions, const UrdfTree& tree,
+                    const Robot& robot) {
+  std::erase_if(positions, [&](const auto& each) { return tree.undriven.contains(each.first); });
+  joints_by_name("pose.joints.", positions, robot);
+}
+
 }  // namespace
 
 Robot load_robot(const std::filesystem::path& file, const LoadOptions& options) {
@@ -290,10 +298,13 @@ Robot load_urdf(const std::filesystem::path& urdf, const UrdfOptions& options) {
                       options.rest_posture.empty() ? options.posture : options.rest_posture,
                       choices);
     if (choices.group) choices.group->rest = options.rest;
+    choices.positions = srdf.posture(options.posture);
+    for (const auto& [joint, position] : options.positions) choices.positions[joint] = position;
     const UrdfTree tree = read_urdf(urdf, choices);
     Robot robot;
     robot.name = tree.name;
     add_tree(tree, robot);
+    require_joints(options.positions, tree, robot);
     const auto add_tool = [&](const std::string& name) {
       const Body& body = tree.bodies.at(name);
       robot.end_effectors.push_back({name, body.link, body.placement});

@@ -22,6 +22,11 @@ void RobotSrdf::choose_group(std::string_view key, const std::string& name,
   if (!rest.empty()) choices.group->state = named_state(*srdf_, key_rest, rest);
 }
 
+std::map<std::string, double> RobotSrdf::posture(const std::string& name) const {
+  if (!srdf_ || !srdf_->states.contains(name)) return {};
+  return srdf_->states.at(name);
+}
+
 void RobotSrdf::add_to(const UrdfTree& tree, Robot& robot) const {
   if (!srdf_) return;
   robot.files.push_back(file_);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -32,6 +33,9 @@ class RobotSrdf {
   ///         group
   void choose_group(std::string_view key, const std::string& name, std::string_view key_rest,
                     const std::string& rest, UrdfChoices& choices) const;
+
+  /// The positions of a named posture, by joint [rad or m]; empty if it has none of that name.
+  std::map<std::string, double> posture(const std::string& name) const;
 
   /// Adds its named postures, its file and what is to be said about it.
   void add_to(const UrdfTree& tree, Robot& robot) const;

@@ -183,6 +183,10 @@ std::string words_of(const TaskSpec& task, const UrdfOptions& options) {
       words += fmt::format(" {} {}", joint, position);
     }
   }
+  if (!options.posture.empty()) words += "; of " + options.posture;
+  for (const auto& [joint, position] : options.positions) {
+    words += fmt::format("; {} at {}", joint, position);
+  }
   if (!options.group.empty()) {
     words += fmt::format("; group {} rest {}", options.group, options.rest_posture);
     for (const auto& [joint, position] : options.rest) {
@@ -240,7 +244,11 @@ Problem load_problem(const std::string& name, const LoadOptions& options) {
 
 Problem make_urdf_problem(const fs::path& urdf, const UrdfOptions& options, TaskSpec task) {
   task.robot = load_urdf(urdf, options);
-  if (!options.posture.empty()) {
+  if (task.posture) {
+    std::erase_if(*task.posture, [&](const auto& each) {  // those that are locked there
+      return options.positions.contains(each.first) && find_joint(task.robot, each.first) < 0;
+    });
+  } else if (!options.posture.empty()) {
     task.posture =
         in_file(urdf, [&] { return named_posture(task.robot, "posture", options.posture); });
   }

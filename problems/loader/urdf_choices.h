@@ -55,7 +55,8 @@ struct UrdfChoices {
   /// The links that carry end effectors. A joint that carries none of them and has no effort is
   /// locked. Empty: no joint is.
   std::set<std::string> tips;
-  std::optional<GroupChoice> group;  ///< none: all joints move
+  std::map<std::string, double> positions;  ///< where such a joint stays; at rest if it has none
+  std::optional<GroupChoice> group;         ///< none: all joints move
 };
 
 /// What is chosen for a link or joint of this name; the default if nothing is.

@@ -16,6 +16,8 @@ namespace {
 constexpr const char* kTypes = "revolute, continuous, prismatic or fixed";
 /// Limits of a revolute joint beyond this are no limits [rad].
 constexpr double kManyTurns = 100;
+/// Joints of arms turn less than twice each way [rad]; and files that lack limits often have these.
+constexpr double kTwoTurns = 4 * std::numbers::pi + 1e-3, kPlaceholderLimit = 10;
 
 /// The joints between the root and the links that carry end effectors.
 std::set<std::string> joints_to_tips(const UrdfStructure& structure,
@@ -37,8 +39,10 @@ std::set<std::string> joints_to_tips(const UrdfStructure& structure,
 /// One joint while it is read.
 class Reader {
  public:
-  Reader(const UrdfElement& from, const JointChoice& choice, std::vector<std::string>& warnings)
-      : from_(from), choice_(choice), warnings_(warnings) {}
+  /// @param position  where it stays if nothing drives it; none: at rest
+  Reader(const UrdfElement& from, const JointChoice& choice, std::optional<double> position,
+         std::vector<std::string>& warnings)
+      : from_(from), choice_(choice), position_(position), warnings_(warnings) {}
 
   UrdfJoint read(bool to_tip) {
     Joint& joint = result_.joint;
@@ -121,8 +125,15 @@ class Reader {
                                 joint.q_max));
       std::swap(joint.q_min, joint.q_max);
     }
+    if (turns && has_placeholder_range()) {
+      warn("limit",
+           fmt::format("{:g} .. {:g} rad looks like a placeholder", joint.q_min, joint.q_max));
+    }
     joint.q_min = choice_.lower.value_or(joint.q_min);
     joint.q_max = choice_.upper.value_or(joint.q_max);
+    if (joint.q_min > joint.q_max) reject_range();
+    const bool is_given = choice_.lower || (limit && limit->attribute("lower"));
+    if (is_given && joint.q_min == joint.q_max) keep_in_place();
     if (turns && (joint.q_min < -kManyTurns || joint.q_max > kManyTurns)) {
       warn("limit", fmt::format("{:g} .. {:g} rad counts as -pi .. pi", joint.q_min, joint.q_max));
       joint.q_min = -pi;
@@ -152,6 +163,7 @@ class Reader {
     if (result_.mimic) return;
     const std::string what = effort ? fmt::format("{:g}", *effort) : "missing";
     if (joint.effort_max == 0 && !to_tip) {
+      result_.undriven = !result_.locked;
       lock("limit.effort", what);
     } else if (joint.effort_max == 0 && !choice_.effort) {
       warn("limit.effort",
@@ -161,6 +173,30 @@ class Reader {
     } else if (is_placeholder(joint.effort_max) && !choice_.effort) {
       warn("limit.effort", fmt::format("{} looks like a placeholder", what));
     }
+  }
+
+  /// The TOML gives one of its ends or both.
+  [[noreturn]] void reject_range() const {
+    const Joint& joint = result_.joint;
+    const char* end = choice_.lower ? "lower" : "upper";
+    throw BadValue(fmt::format("joints.{}.{}", joint.name, end),
+                   shown(choice_.lower ? joint.q_min : joint.q_max),
+                   choice_.lower ? fmt::format("at most the upper limit {:g}", joint.q_max)
+                                 : fmt::format("at least the lower limit {:g}", joint.q_min));
+  }
+
+  /// A sensor's frame, for example: no motion of it is a solution of any pose.
+  void keep_in_place() {
+    if (choice_.lock || choice_.rests || result_.mimic) return;
+    result_.locked = result_.joint.q_min;
+    warn("limit", fmt::format("{0:g} .. {0:g}: the joint is locked there", *result_.locked));
+  }
+
+  bool has_placeholder_range() const {
+    const double low = result_.joint.q_min, high = result_.joint.q_max;
+    if (choice_.lower || choice_.upper || low < -kManyTurns || high > kManyTurns) return false;
+    return (low == -kPlaceholderLimit && high == kPlaceholderLimit) || low < -kTwoTurns ||
+           high > kTwoTurns;
   }
 
   static bool is_placeholder(double effort) {
@@ -174,29 +210,48 @@ class Reader {
     return std::isfinite(at) ? at : 0.0;
   }
 
-  void lock_as_chosen() {
+  std::string limits() const {
+    return fmt::format("{:g} .. {:g}", result_.joint.q_min, result_.joint.q_max);
+  }
+
+  std::string within_limits() const {
+    return fmt::format("a position within its limits {}", limits());
+  }
+
+  bool is_within_limits(double position) const {
     constexpr double kRounding = 1e-9;  // decimals of files
+    return position >= result_.joint.q_min - kRounding &&
+           position <= result_.joint.q_max + kRounding;
+  }
+
+  /// Where a joint stays that nothing drives.
+  double resting_place() const {
+    if (!position_ || !result_.undriven) return nearest_to_zero();
+    if (is_within_limits(*position_)) return *position_;
+    throw BadValue("positions", fmt::format("{} = {:g}", result_.joint.name, *position_),
+                   within_limits());
+  }
+
+  void lock_as_chosen() {
     result_.locked = *choice_.lock;
-    const Joint& joint = result_.joint;
     const double at = *choice_.lock;
-    if (at >= joint.q_min - kRounding && at <= joint.q_max + kRounding) return;
-    const std::string limits = fmt::format("{:g} .. {:g}", joint.q_min, joint.q_max);
+    if (is_within_limits(at)) return;
     if (choice_.rest_given) {
-      throw BadValue("rest", fmt::format("{} = {:g}", joint.name, at),
-                     fmt::format("a position within its limits {}", limits));
+      throw BadValue("rest", fmt::format("{} = {:g}", result_.joint.name, at), within_limits());
     }
-    warn("limit", fmt::format("{}: the joint is locked outside, at {:g}", limits, at));
+    warn("limit", fmt::format("{}: the joint is locked outside, at {:g}", limits(), at));
   }
 
   /// Where nothing drives the joint.
   void lock(std::string_view attribute, std::string_view what) {
-    const double position = nearest_to_zero();
+    const double position = resting_place();
     if (!result_.locked) result_.locked = position;
     warn(attribute, fmt::format("{}: the joint is locked at {:g}", what, position));
   }
 
   const UrdfElement& from_;
   const JointChoice& choice_;
+  std::optional<double> position_;
   std::vector<std::string>& warnings_;
   UrdfJoint result_;
 };
@@ -262,7 +317,10 @@ std::map<std::string, UrdfJoint> read_joints(const UrdfStructure& structure,
   for (const UrdfElement& element : structure.joints) {
     const std::string name = name_of(element);
     const JointChoice choice = choice_of(choices.joints, name);
-    Reader reader(element, choice, warnings);
+    const auto found = choices.positions.find(name);
+    const bool has_position = found != choices.positions.end();
+    Reader reader(element, choice,
+                  has_position ? std::optional<double>(found->second) : std::nullopt, warnings);
     joints.emplace(name, reader.read(choices.tips.empty() || to_tips.contains(name)));
   }
   for (const UrdfElement& element : structure.joints) {

@@ -15,13 +15,15 @@ namespace maxwrench {
 struct UrdfJoint {
   Joint joint;                   ///< without parent and placement
   std::optional<double> locked;  ///< the position in which it stays; 0 for a fixed joint
+  bool undriven = false;         ///< it is locked because it has no effort
   std::optional<Mimic> mimic;    ///< of a joint that moves with another one that is not locked
 };
 
 /// Reads all joints by name. A file as its maker publishes it may lack what a task does not need.
 /// Each such place adds a line to `warnings`:
 ///
-/// * No effort: it counts as zero on the way to an end effector; elsewhere the joint is locked.
+/// * No effort: it counts as zero on the way to an end effector; elsewhere the joint is locked,
+///   where `UrdfChoices::positions` has it.
 /// * No velocity, or zero: there is no limit.
 /// * No limits of a revolute joint: ±pi. Of a prismatic one: locked.
 /// * An axis of zero, and the types floating and planar: locked.

@@ -11,6 +11,7 @@
 #include "problems/loader/urdf_joint.h"
 #include "problems/loader/urdf_shape.h"
 #include "problems/loader/urdf_structure.h"
+#include "problems/make/bad_value.h"
 #include "problems/make/robot.h"
 
 namespace maxwrench {
@@ -118,6 +119,7 @@ void visit(Reading& reading, const std::string& name, const Body& body) {
     const Pose<double> placement = body.placement * origin_of(element);
     const std::string child = end_of(element, "child");
     Body moved{body.link, placement};
+    if (joint.undriven) reading.tree.undriven.insert(joint.joint.name);
     if (joint.locked) {
       moved.placement = placement * moved_by(joint);
     } else {
@@ -218,6 +220,16 @@ void suspect_efforts(UrdfTree& tree) {
                                       counts.begin()->second, counts.begin()->first));
 }
 
+/// Rejects what only a slip of the pen explains; in a URDF it is repaired.
+void require_leader(const std::string& name, const Mimic& mimic,
+                    const std::map<std::string, UrdfJoint>& joints) {
+  const std::string key = fmt::format("joints.{}.mimic", name);
+  if (mimic.leader == name || !joints.contains(mimic.leader)) {
+    throw BadValue(key + ".joint", shown(mimic.leader), "the name of another joint of the URDF");
+  }
+  if (mimic.ratio == 0) throw BadValue(key + ".ratio", "0", "another number");
+}
+
 }  // namespace
 
 Pose<double> origin_of(const UrdfElement& element) {
@@ -264,6 +276,9 @@ UrdfTree read_urdf(const std::filesystem::path& file, const UrdfChoices& given) 
                   {}};
   require_known(choices.joints, "joint",
                 [&](const std::string& name) { return reading.joints.contains(name); });
+  for (const auto& [name, choice] : choices.joints) {
+    if (choice.mimic) require_leader(name, *choice.mimic, reading.joints);
+  }
   require_known(choices.links, "link",
                 [&](const std::string& name) { return structure.links.contains(name); });
   tree.name = structure.name.empty() ? file.stem().string() : structure.name;

@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct UrdfTree {
   std::map<std::string, Body> bodies;   ///< by name of the URDF link
   std::vector<BodyPart> parts;          ///< one for each URDF link
   std::vector<std::string> leaves;      ///< the URDF links without children that a joint moves
+  std::set<std::string> undriven;       ///< joints that are locked because they have no effort
   std::vector<std::string> group_tips;  ///< of `UrdfChoices::group`: the links at its ends
   std::vector<Shape> shapes;
   std::vector<Visual> visuals;

@@ -70,6 +70,7 @@ class Robot:
         group: str = "",
         rest: str | dict[str, float] | None = None,
         packages: _Names = (),
+        joints: dict[str, float] | None = None,
     ) -> Robot: ...
     @staticmethod
     def from_toml(path: _Path, *, limits: str = "") -> Robot: ...

@@ -13,7 +13,7 @@ namespace {
 
 PyRobot from_urdf(const py::object& path, const py::object& base, const std::string& tool,
                   const py::object& srdf, const std::string& group, const py::object& rest,
-                  const py::object& packages) {
+                  const py::object& packages, const py::object& joints) {
   const std::string file = path_in("path", path);
   UrdfOptions options;
   options.tool = tool;
@@ -28,6 +28,7 @@ PyRobot from_urdf(const py::object& path, const py::object& base, const std::str
     throw BadValue("rest", std::string(py::repr(rest)),
                    "the name of a posture, or a dict of joints and positions");
   }
+  if (!joints.is_none()) options.positions = numbers_by_name("joints", joints);
   py::list folders;
   if (py::isinstance<py::str>(packages)) {
     folders.append(packages);
@@ -47,6 +48,7 @@ PyRobot from_urdf(const py::object& path, const py::object& base, const std::str
   how["group"] = group;
   how["rest"] = rest;
   how["packages"] = folders;
+  how["joints"] = joints;
   return {std::make_shared<const Robot>(load_urdf(file, options)), {"Robot.from_urdf", how}};
 }
 
@@ -123,6 +125,8 @@ Args:
         positions [rad or m]. Joints that it does not have are at zero, or at their limit nearest to
         it.
     packages: folders of packages, in which ``package://`` is searched first.
+    joints: positions [rad or m] by name. With ``tool``, a joint that does not move it and has no
+        effort is locked: at its position here, else at rest. Joints that move are left as they are.
 
 Raises:
     InputError: the file is missing or something in it is wrong.
@@ -143,7 +147,8 @@ code, and ``task.robot`` is the robot of a task.
 )")
       .def_static("from_urdf", &from_urdf, py::arg("path"), py::kw_only(), py::arg("base") = "",
                   py::arg("tool") = "", py::arg("srdf") = py::none(), py::arg("group") = "",
-                  py::arg("rest") = py::none(), py::arg("packages") = py::tuple(), kFromUrdf)
+                  py::arg("rest") = py::none(), py::arg("packages") = py::tuple(),
+                  py::arg("joints") = py::none(), kFromUrdf)
       .def_static("from_toml", &from_toml, py::arg("path"), py::kw_only(), py::arg("limits") = "",
                   R"(Reads a robot from a TOML file and the URDF that it names.
 

@@ -172,6 +172,26 @@ def test_robot_from_a_urdf(problems):
     assert parked.base == ["x", "y", "yaw"] and parked.end_effectors == ["link_5"]
 
 
+def test_joints_without_effort_stay_where_they_are_put(tmp_path):
+    # An arm along x, with 3 kg on a flap 0.3 m from a joint at 0.6 m. The motor bears 100 N m about y.
+    (tmp_path / "arm.urdf").write_text("""<robot name='arm'>
+      <link name='base'/><link name='rod'/><link name='tool'/>
+      <link name='flap'><inertial><origin xyz='0.3 0 0'/><mass value='3'/>
+        <inertia ixx='1' ixy='0' ixz='0' iyy='1' iyz='0' izz='1'/></inertial></link>
+      <joint name='a' type='revolute'><parent link='base'/><child link='rod'/><axis xyz='0 1 0'/>
+        <limit lower='-2' upper='2' effort='100' velocity='1'/></joint>
+      <joint name='t' type='fixed'><parent link='rod'/><child link='tool'/><origin xyz='1 0 0'/></joint>
+      <joint name='flap' type='revolute'><parent link='rod'/><child link='flap'/><origin xyz='0.6 0 0'/>
+        <axis xyz='0 1 0'/><limit lower='-2' upper='2' velocity='1'/></joint></robot>""")
+    robot = mw.Robot.from_urdf(tmp_path / "arm.urdf", tool="tool", joints={"a": 0, "flap": 1.2})
+    assert robot.joint_names == ["a"]
+    lift = mw.Static(robot, joints={"a": 0}, c="z")
+    assert mw.evaluate_joints(lift, [0]).beta == pytest.approx(100 - 3 * 9.81 * (0.6 + 0.3 * np.cos(1.2)), rel=1e-9)
+    assert pickle.loads(pickle.dumps(lift)).robot.joint_names == ["a"]
+    with pytest.raises(mw.InputError, match="flap = 3"):
+        mw.Robot.from_urdf(tmp_path / "arm.urdf", tool="tool", joints={"flap": 3})
+
+
 def test_pickled_objects_are_made_again():
     robot = mw.load("fixed/push").robot
     path = mw.Path.screw(mw.Pose(rpy=[0, 0, 0.2]), 10, angle=1.0, timing="quintic")

@@ -6,6 +6,7 @@
 #include <iterator>
 
 #include "solvers/explain/parts.h"
+#include "solvers/solve/format.h"
 
 namespace maxwrench {
 namespace {
@@ -24,21 +25,16 @@ std::string more_of(const LimitRate& limit, double gain, const std::string& unit
   return fmt::format("10 % more of {} adds {:.5f} {}\n", limit.name, gain, unit);
 }
 
-/// The number without the sign of a zero.
-std::string unsigned_zero(double value) {
-  const std::string text = fmt::format("{:.5f}", value);
-  return text == "-0.00000" ? "0.00000" : text;
-}
-
 /// The values of a limit between which its rate holds, such as "-41.48353 .. -38.2".
 std::string range_text(const BindingLimit& limit) {
   if (std::isnan(limit.up)) return "";
-  return fmt::format("  {:.5f} .. {:.5f}", limit.limit - limit.down, limit.limit + limit.up);
+  return fmt::format("  {} .. {}", decimals(limit.limit - limit.down),
+                     decimals(limit.limit + limit.up));
 }
 
 std::string rate_text(const BindingLimit& limit) {
-  const std::string down = unsigned_zero(limit.rate_down), up = unsigned_zero(limit.rate_up);
-  if (std::isnan(limit.rate_up) || up == down) return unsigned_zero(limit.rate);
+  const std::string down = decimals(limit.rate_down), up = decimals(limit.rate_up);
+  if (std::isnan(limit.rate_up) || up == down) return decimals(limit.rate);
   return down + " / " + up;
 }
 
@@ -47,10 +43,10 @@ std::string binding_table(const Explanation& e) {
                                  e.kink ? "rate down / up" : "rate", "share [" + e.unit + "]",
                                  "10 % more", e.ranges_missing.empty() ? "  rate holds" : "");
   for (const BindingLimit& limit : e.limits) {
-    text += fmt::format("{:<32}{:>12}{:>21}{:>14}{:>12.5f}{}\n",
-                        limit.name + " " + to_string(limit.side),
-                        fmt::format("{:g} {}", limit.limit, limit.unit), rate_text(limit),
-                        unsigned_zero(limit.share), limit.gain, range_text(limit));
+    text +=
+        fmt::format("{:<32}{:>12}{:>21}{:>14}{:>12}{}\n", limit.name + " " + to_string(limit.side),
+                    fmt::format("{:g} {}", limit.limit, limit.unit), rate_text(limit),
+                    decimals(limit.share), decimals(limit.gain), range_text(limit));
   }
   const std::pair<const char*, double> loads[] = {{"weight", e.budget.weight},
                                                   {"buoyancy", e.budget.buoyancy},
@@ -58,7 +54,7 @@ std::string binding_table(const Explanation& e) {
                                                   {"other", e.budget.other}};
   for (const auto& [name, share] : loads) {
     if (std::abs(share) > 1e-9 * (1 + std::abs(e.beta))) {
-      text += fmt::format("{:<65}{:>14.5f}\n", name, share);
+      text += fmt::format("{:<65}{:>14}\n", name, decimals(share));
     }
   }
   return text +
@@ -68,9 +64,9 @@ std::string binding_table(const Explanation& e) {
 std::string rates_table(const std::vector<LimitRate>& limits, const std::string& unit) {
   std::string text;
   for (const LimitRate& limit : limits) {
-    text +=
-        fmt::format("{:<32}{:>12}{:>21.5f}  {} per {}\n", limit.name + " " + to_string(limit.side),
-                    fmt::format("{:g} {}", limit.limit, limit.unit), limit.rate, unit, limit.unit);
+    text += fmt::format("{:<32}{:>12}{:>21}  {} per {}\n", limit.name + " " + to_string(limit.side),
+                        fmt::format("{:g} {}", limit.limit, limit.unit), decimals(limit.rate), unit,
+                        limit.unit);
   }
   return text;
 }
@@ -97,7 +93,7 @@ std::string efforts_text(const Explanation& e) {
     text += fmt::format(", of the efforts above {:.5f}", efforts.vertex_norm);
   }
   text += "\nu_least  ";
-  for (const double u : efforts.u) text += fmt::format(" {:>9}", unsigned_zero(u));
+  for (const double u : efforts.u) text += fmt::format(" {:>9}", decimals(u));
   return text + "\n";
 }
 

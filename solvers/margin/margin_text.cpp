@@ -13,8 +13,7 @@ namespace {
 using nlohmann::ordered_json;
 
 std::string shown_margin(double margin) {
-  return std::isfinite(margin) ? fmt::format("{:.5f}", margin)
-                               : std::string(margin > 0 ? "any" : "none");
+  return std::isfinite(margin) ? decimals(margin) : std::string(margin > 0 ? "any" : "none");
 }
 
 /// "thruster at -40, elbow at 9"
@@ -38,7 +37,7 @@ std::string field(const std::string& text) {
 
 std::string numbers(const Vector6d& v) {
   std::string text;
-  for (const double x : v) text += fmt::format("{:>9.5f}", x + 0.0);
+  for (const double x : v) text += fmt::format("{:>9}", decimals(x));
   return text;
 }
 

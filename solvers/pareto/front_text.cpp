@@ -19,7 +19,7 @@ std::string front_line(const FrontPoint& point, const std::string& name) {
   std::string text = fmt::format("{:<12}{:>9.5f}", name, point.t);
   text += point.bound < kInfinity ? fmt::format(" {:>9.5f}", point.bound) : "         -";
   for (const double beta : point.beta) {
-    text += fmt::format(" {:>11}", std::isfinite(beta) ? fmt::format("{:.5f}", beta) : "-");
+    text += fmt::format(" {:>11}", std::isfinite(beta) ? decimals(beta) : "-");
   }
   return text + "  " + line(point.theta_r) + "\n";
 }

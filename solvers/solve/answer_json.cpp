@@ -6,6 +6,7 @@
 #include "maxwrench/version.h"
 #include "solvers/solve/active_limits.h"
 #include "solvers/solve/format.h"
+#include "solvers/solve/near_singular.h"
 
 namespace maxwrench {
 namespace {
@@ -146,6 +147,10 @@ void add_posture(const Answer& answer, ordered_json& object) {
   const bool has_wrench = solved && capability.w.size() > 0;
   object["beta_linf"] = known(std::isfinite(answer.beta_linf), answer.beta_linf);
   object["beta_linf_unit"] = problem.unit();
+  const std::optional<JointOff> off = find_joint_off(answer);
+  object["near_singular"] =
+      off ? ordered_json{{"joint", off->joint}, {"off", off->by}, {"beta", off->beta}}
+          : ordered_json(nullptr);
   object["theta_r"] = known(there, array(posture.theta_r));
   object["theta"] = there ? theta(problem.robot, posture.base, posture.q) : ordered_json(nullptr);
   if (finds_pose(answer)) {

@@ -48,9 +48,14 @@ Eigen::Vector3d rpy(const Eigen::Matrix3d& R) {
   return {std::atan2(R(2, 1), R(2, 2)), pitch, std::atan2(R(1, 0), R(0, 0))};
 }
 
+std::string decimals(double value) {
+  std::string text = fmt::format("{:.5f}", value);
+  return text == "-0.00000" ? text.substr(1) : text;
+}
+
 std::string line(const Eigen::VectorXd& v) {
   std::string text;
-  for (const double value : v) text += fmt::format(" {:>9.5f}", value);
+  for (const double value : v) text += fmt::format(" {:>9}", decimals(value));
   return text;
 }
 

@@ -39,6 +39,9 @@ std::string in_one_line(const nlohmann::ordered_json& object);
 /// Roll, pitch, yaw with R = Rz(yaw) Ry(pitch) Rx(roll).
 Eigen::Vector3d rpy(const Eigen::Matrix3d& R);
 
+/// The number with five decimals; one that rounds to zero has no sign.
+std::string decimals(double value);
+
 /// Numbers in columns.
 std::string line(const Eigen::VectorXd& v);
 std::string line(const Residual& residual);

@@ -8,6 +8,7 @@
 #include "maxwrench/solve.h"
 #include "solvers/solve/active_limits.h"
 #include "solvers/solve/format.h"
+#include "solvers/solve/near_singular.h"
 
 namespace maxwrench {
 namespace {
@@ -45,7 +46,7 @@ void add_instants(const Answer& answer, std::string& text) {
       10 * problem.redundancy());
   for (int i = 0; i < count; i += step) {
     const Instant& instant = instants[static_cast<std::size_t>(i)];
-    const std::string beta = answer.has_value() ? fmt::format("{:.5f}", instant.beta()) : "-";
+    const std::string beta = answer.has_value() ? decimals(instant.beta()) : "-";
     add(text, "{:>9.4f}  {:>9}  {}  {}\n", instant.t, beta, line(instant.q(problem.redundant)),
         answer.has_value() ? nearest_limit(problem.robot, reported_limits(answer), instant.u) : "");
   }
@@ -53,9 +54,9 @@ void add_instants(const Answer& answer, std::string& text) {
 
 void add_value(const Answer& answer, std::string& text) {
   const Trajectory& trajectory = answer.trajectory;
-  add(text, "value    {:>10.5f} {}\n", trajectory.value, answer.unit);
+  add(text, "value    {:>10} {}\n", decimals(trajectory.value), answer.unit);
   if (trajectory.between_knots_reason.empty()) {
-    add(text, "value_between_knots {:.5f} {}\n", trajectory.value_between_knots, answer.unit);
+    add(text, "value_between_knots {} {}\n", decimals(trajectory.value_between_knots), answer.unit);
   } else {
     add(text, "value_between_knots none: {}\n", trajectory.between_knots_reason.c_str());
   }
@@ -107,7 +108,8 @@ std::string trajectory_summary(const Answer& answer) {
 
 void add_dependent(const Answer& answer, const std::vector<int>& joints, std::string& text) {
   for (const int i : joints) {
-    add(text, "dependent{:>10.5f}  {}\n", answer.posture.q[i], answer.task->robot.joints[i].name);
+    add(text, "dependent{:>10}  {}\n", decimals(answer.posture.q[i]),
+        answer.task->robot.joints[i].name);
   }
 }
 
@@ -115,17 +117,21 @@ void add_dependent(const Answer& answer, const std::vector<int>& joints, std::st
 void add_capability(const Answer& answer, std::string& text) {
   const Problem& problem = *answer.task;
   const Capability& capability = answer.capability;
-  add(text, "beta     {:>10.5f} {}\n", capability.beta, answer.unit);
+  add(text, "beta     {:>10} {}\n", decimals(capability.beta), answer.unit);
   const ScenarioList& list = problem.scenarios;
   if (!list.empty()) add(text, "decides  {}\n", describe(list, capability.decides));
-  add(text, "beta_linf{:>10.5f} {}\n", answer.beta_linf, problem.unit());
+  add(text, "beta_linf{:>10} {}\n", decimals(answer.beta_linf), problem.unit());
+  if (const std::optional<JointOff> off = find_joint_off(answer)) {
+    add(text, "near singular along c: {} {} if {} is off by {} rad\n", decimals(off->beta),
+        answer.unit, off->joint, off->by);
+  }
   if (capability.w.size() > 0) add(text, "h        {}\n", line(capability.h));
   if (problem.contact) add(text, "h_2      {}\n", line(capability.h_2));
   const Zonotope& limits =
       list.empty() ? problem.robot.actuation
                    : list.limits[static_cast<std::size_t>(capability.decides.limits)].actuation;
   for (Eigen::Index i = 0; i < capability.u.size(); ++i) {
-    add(text, "u {:>17.5f}  of {}  {}\n", capability.u[i],
+    add(text, "u {:>17}  of {}  {}\n", decimals(capability.u[i]),
         is_gear(problem.robot, i) ? "a gear, without limit"
                                   : fmt::format("{:g} .. {:g}", limits.u_min[i], limits.u_max[i]),
         actuator_name(problem.robot, i));
@@ -180,7 +186,7 @@ std::string posture_summary(const Answer& answer) {
 std::string summary(const std::vector<ScenarioEnds>& ends) {
   std::string text = "scenarios    low        high\n";
   const auto end = [](bool held, double value) {
-    return held ? fmt::format("{:.5f}", value) : std::string("-");
+    return held ? decimals(value) : std::string("-");
   };
   for (const ScenarioEnds& each : ends) {
     add(text, "{:>14} {:>10}  {}\n", end(each.held, each.low), end(each.held, each.high),

@@ -94,11 +94,31 @@ INSTANTIATE_TEST_SUITE_P(
                  "without lower and upper, which counts as 0 .. 0"},
         Repaired{"millimetres", "<limit lower='0' upper='300' effort='3' velocity='2'/>",
                  "prismatic", 0, 300, 3, 2, "millimetres?"},
+        Repaired{"ten_each_way", "<limit lower='-10' upper='10' effort='3' velocity='2'/>",
+                 "revolute", -10, 10, 3, 2, "limit: -10 .. 10 rad looks like a placeholder"},
+        Repaired{"two_turns_and_more", "<limit lower='0' upper='13' effort='3' velocity='2'/>",
+                 "revolute", 0, 13, 3, 2, "limit: 0 .. 13 rad looks like a placeholder"},
         Repaired{"placeholder", "<limit lower='0' upper='1' effort='1000' velocity='2'/>",
                  "revolute", 0, 1, 1000, 2, "1000 looks like a placeholder"},
         Repaired{"nines", "<limit lower='0' upper='1' effort='9999' velocity='2'/>", "revolute", 0,
                  1, 9999, 2, "9999 looks like a placeholder"}),
     [](const auto& test) { return std::string(test.param.name); });
+
+/// Wrists that turn twice each way exist, ten metres of a rail too, and what the TOML says is
+/// meant.
+TEST_F(UrdfTest, WideRangesThatAreMeantAreNoPlaceholders) {
+  const auto warnings_of = [&](const std::string& range, const std::string& type,
+                               const std::string& toml = "") {
+    const std::string limit = "<limit " + range + " effort='5' velocity='1'/>";
+    return load_finger(limit, toml, type).warnings;
+  };
+  EXPECT_THAT(warnings_of("lower='-12.566' upper='12.566'", "revolute"), IsEmpty());
+  EXPECT_THAT(warnings_of("lower='-9.9' upper='10'", "revolute"), IsEmpty());
+  EXPECT_THAT(warnings_of("lower='-10' upper='10'", "prismatic"), IsEmpty());
+  EXPECT_THAT(warnings_of("lower='-10' upper='10'", "continuous"), IsEmpty());
+  EXPECT_THAT(warnings_of("lower='-10' upper='10'", "revolute", "joints.finger.upper = 20\n"),
+              IsEmpty());
+}
 
 TEST_F(UrdfTest, TomlCountsMoreThanTheFile) {
   const Robot robot = load(link("base") + link("tip") + joint("hinge", "base", "tip", "<limit/>"),
@@ -130,6 +150,45 @@ TEST_F(UrdfTest, LockedJointHoldsItsPosition) {
   EXPECT_EQ(tool.link, 1);
   EXPECT_TRUE(tool.placement.p.isApprox(Eigen::Vector3d::UnitX(), 1e-12));
   EXPECT_TRUE(tool.placement.R.col(2).isApprox(Eigen::Vector3d::UnitX(), 1e-12));
+}
+
+/// No posture that turns it reaches a pose: as a joint it would count as one that does.
+TEST_F(UrdfTest, JointWithoutRangeIsLocked) {
+  const std::string limit = "<limit lower='0.5' upper='0.5' effort='5' velocity='1'/>";
+  const std::string arm = link("base") + link("upper") + link("hand") +
+                          joint("arm", "base", "upper") + joint("finger", "upper", "hand", limit);
+  const Robot robot = load(arm, "end_effectors.tool = { link = 'hand' }\n");
+  ASSERT_EQ(robot.joints.size(), 1u);
+  EXPECT_THAT(robot.warnings, ElementsAre("joint[finger].limit: 0.5 .. 0.5: the joint is locked "
+                                          "there"));
+  // Half a radian about y: z points along (sin 0.5, 0, cos 0.5).
+  EXPECT_NEAR(robot.end_effectors[0].placement.R(0, 2), std::sin(0.5), 1e-12);
+  EXPECT_EQ(
+      load(arm, "end_effectors.tool = { link = 'hand' }\njoints.finger.upper = 1\n").joints.size(),
+      2u);
+  // What the file leaves out may be anything.
+  EXPECT_EQ(load_finger("<limit effort='5' velocity='1'/>").joints.size(), 2u);
+}
+
+/// A URDF is repaired, but its TOML is the user's own.
+TEST_F(UrdfTest, SlipsInTheTomlAreRejected) {
+  const std::string arm = link("base") + link("upper") + link("hand") +
+                          joint("arm", "base", "upper") + joint("finger", "upper", "hand");
+  const auto error_of = [&](const std::string& toml) {
+    return rejection(arm, "end_effectors.tool = { link = 'upper' }\n" + toml);
+  };
+  EXPECT_THAT(error_of("joints.finger.mimic = { joint = 'toe' }\n"),
+              HasSubstr("robot.toml: joints.finger.mimic.joint: got 'toe', expected the name of "
+                        "another joint of the URDF"));
+  EXPECT_THAT(error_of("joints.finger.mimic = { joint = 'finger' }\n"),
+              HasSubstr("joints.finger.mimic.joint: got 'finger', expected the name of another"));
+  EXPECT_THAT(error_of("joints.finger.mimic = { joint = 'arm', ratio = 0 }\n"),
+              HasSubstr("joints.finger.mimic.ratio: got 0, expected another number"));
+  EXPECT_THAT(error_of("joints.arm.lower = 3\n"),
+              HasSubstr("robot.toml: joints.arm.lower: got 3, expected at most the upper limit 2"));
+  EXPECT_THAT(error_of("joints.arm.upper = -2\n"),
+              HasSubstr("joints.arm.upper: got -2, expected at least the lower limit -1"));
+  EXPECT_EQ(error_of("joints.finger.mimic = { joint = 'arm', ratio = -1 }\n"), "accepted");
 }
 
 TEST_F(UrdfTest, GearPassesItsLoadToTheLeader) {
