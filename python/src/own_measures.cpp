@@ -33,55 +33,66 @@ PyPosture seen(const Problem& task, const Posture& posture, const WrenchProgram&
   return view;
 }
 
-/// The number that a measure returns. Called with the lock.
-double value_of(const py::object& measure, const PyPosture& posture) {
-  const py::object value = measure.attr("value")(posture);
-  const py::object number = py::reinterpret_steal<py::object>(PyNumber_Float(value.ptr()));
-  if (number) return number.cast<double>();
-  PyErr_Clear();
-  throw BadValue("value", std::string(py::repr(value)),
-                 "a number from the measure " + attribute_of(measure, "name", ""));
-}
-
-/// A measure whose derivatives by tau_d and J are given by Python, too.
+/// A measure that is written in Python.
 class PythonMeasure : public Measure {
  public:
-  PythonMeasure(const Problem& task, Shared measure) : task_(task), measure_(std::move(measure)) {}
+  PythonMeasure(const Problem& task, Shared measure, bool has_derivatives)
+      : task_(task), measure_(std::move(measure)), has_derivatives_(has_derivatives) {
+    const py::gil_scoped_acquire lock;
+    name_ = attribute_of(*measure_, "name", "");
+    differences_ = make_value_measure([this](const Posture& posture, const WrenchProgram& program) {
+      return value_of(posture, program);
+    });
+  }
 
   void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool,
                             Capability& capability) override {
-    const py::gil_scoped_acquire lock;
-    capability.beta = value_of(*measure_, seen(task_, posture, program));
     capability.conclude(Status::kOptimal);
+    capability.beta = value_of(posture, program);
     if (std::isnan(capability.beta)) {
-      capability.conclude(Status::kInfeasible, "the measure has no value here");
+      capability.conclude(Status::kInfeasible, "measure " + name_ + " returned NaN");
+    } else if (std::isinf(capability.beta)) {
+      capability.conclude(Status::kNumericalError, "measure " + name_ + " returned an infinity");
     }
+    capability.lambda.setZero(posture.tau_d.size());
+    capability.beta_J.setZero(6, posture.J.cols());
   }
+
   void differentiate(const Posture& posture, const WrenchProgram& program,
                      Capability& capability) override {
+    if (!has_derivatives_) return differences_->differentiate(posture, program, capability);
     const py::gil_scoped_acquire lock;
     const py::object pair = measure_->attr("derivatives")(seen(task_, posture, program));
     if (!py::isinstance<py::tuple>(pair) || py::len(pair) != 2) {
-      throw BadValue("derivatives", std::string(py::repr(pair)), "a pair of arrays (n) and (6, n)");
+      throw BadValue(name_ + ".derivatives", std::string(py::repr(pair)),
+                     "a pair of arrays (n) and (6, n)");
     }
     const Eigen::Index n = posture.tau_d.size();
-    capability.lambda = vector("derivatives[0]", pair[py::int_(0)], n);
-    capability.beta_J = matrix("derivatives[1]", pair[py::int_(1)], 6, n);
+    const std::string by_tau_d = name_ + ".derivatives[0]", by_J = name_ + ".derivatives[1]";
+    capability.lambda = vector(by_tau_d, pair[py::int_(0)], n);
+    capability.beta_J = matrix(by_J, pair[py::int_(1)], 6, n);
+    require_all_finite(by_tau_d, capability.lambda);
+    require_all_finite(by_J, capability.beta_J);
   }
 
  private:
+  /// The number that it returns.
+  double value_of(const Posture& posture, const WrenchProgram& program) const {
+    const py::gil_scoped_acquire lock;
+    const py::object value = measure_->attr("value")(seen(task_, posture, program));
+    if (PyFloat_Check(value.ptr())) return PyFloat_AS_DOUBLE(value.ptr());
+    const std::string key = name_ + ".value";
+    const Array number = numbers(key, value);
+    if (number.size() != 1) throw BadValue(key, "shape " + shape_of(number), "one number");
+    return *number.data();
+  }
+
   const Problem& task_;
   Shared measure_;
+  bool has_derivatives_;
+  std::string name_;
+  std::unique_ptr<Measure> differences_;  ///< differentiates by values
 };
-
-std::unique_ptr<Measure> make_python_measure(const Problem& task, const Shared& measure,
-                                             bool has_derivatives) {
-  if (has_derivatives) return std::make_unique<PythonMeasure>(task, measure);
-  return make_value_measure([&task, measure](const Posture& posture, const WrenchProgram& program) {
-    const py::gil_scoped_acquire lock;
-    return value_of(*measure, seen(task, posture, program));
-  });
-}
 
 void add_python_measure(const py::object& measure) {
   const std::string name = attribute_of(measure, "name", ""),
@@ -91,7 +102,7 @@ void add_python_measure(const py::object& measure) {
   add_measure({name.c_str(), summary.c_str(), false, flag_of(measure, "supports_any"),
                unit.empty() ? nullptr : unit.c_str(),
                [shared = share(measure), derivatives](const Problem& task, auto) {
-                 return make_python_measure(task, shared, derivatives);
+                 return std::make_unique<PythonMeasure>(task, shared, derivatives);
                }});
 }
 
