@@ -6,5 +6,5 @@ set(maxwrench_python_sources
   src/solve.cpp src/tank.cpp src/tank_scenarios.cpp src/task_arguments.cpp src/task_makers.cpp src/tasks.cpp src/trajectory_proofs.cpp
   src/transfers.cpp src/view.cpp src/words.cpp src/wrench_sets.cpp)
 set(maxwrench_python_modules
-  __init__.py _arguments.py _dict.py _errors.py _files.py _frames.py _html.py _map.py _parts.py _pickle.py _plot.py _progress.py _race.py
+  __init__.py _arguments.py _dict.py _errors.py _files.py _frames.py _html.py _made.py _map.py _parts.py _pickle.py _plot.py _progress.py _race.py
   _ros.py _strategies.py _table.py _view.py)
