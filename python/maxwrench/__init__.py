@@ -59,12 +59,12 @@ for _result in (
     VerifiedTrajectory,
 ):
     setattr(_result, "to_dict", _dict.dict_of)
-for _type in (Path, Pose, Robot, Task):
-    setattr(_type, "to_dict", _made.dict_of)
-    setattr(_type, "from_dict", _made.maker_of(_type))
-for _type in list(vars(_core).values()):
-    if hasattr(_type, "to_dict") and not hasattr(_type, "to_json"):
-        setattr(_type, "to_json", _made.json_of)
+for _made_again in (Path, Pose, Robot, Task):
+    setattr(_made_again, "to_dict", _made.dict_of)
+    setattr(_made_again, "from_dict", _made.maker_of(_made_again))
+for _kind in list(vars(_core).values()):
+    if hasattr(_kind, "to_dict") and not hasattr(_kind, "to_json"):
+        setattr(_kind, "to_json", _made.json_of)
 Answer.plot = _plot.plot_answer
 Answer.view = _view.view_answer
 setattr(Map, "best", property(_map.best_of))
