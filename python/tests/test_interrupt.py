@@ -153,12 +153,12 @@ def test_other_signal_handlers_may_raise():
         signal.signal(signal.SIGALRM, before)
 
 
-def press():
-    """A callback that lets Ctrl-C be pressed, once, while the call computes."""
+def press(after=0):
+    """A callback that lets Ctrl-C be pressed, once, while the call computes and that many evaluations are done."""
     pressed = []
 
     def callback(evaluations):
-        if not pressed:
+        if evaluations >= after and not pressed:
             pressed.append(Interrupt(0.01))
 
     return callback
@@ -167,14 +167,14 @@ def press():
 def test_ctrl_c_ends_a_map():
     # A million cells.
     over = {"x": (-0.1, 0.1, 1000), "y": (-0.1, 0.1, 1000)}
-    found = mw.map("planar/force", over, budget=50, callback=press())
+    found = mw.map("planar/force", over, budget=50, callback=press(1))
     assert found.status == "budget_exhausted" and 0 < len(found) < 1_000_000
     assert set(found.statuses) <= {"best_found", "none_found"}  # what there is, is complete
 
 
 def test_ctrl_c_ends_the_proofs_of_a_map():
     over = {"x": (-0.1, 0.1, 900), "y": (-0.1, 0.1, 900)}
-    found = mw.map("planar/force", over, budget=50, certify=True, gap=1e-7, callback=press())
+    found = mw.map("planar/force", over, budget=50, certify=True, gap=1e-7, callback=press(1))
     assert found.status == "budget_exhausted" and len(found) < 810_000
     assert (found.bound >= found.beta)[np.isfinite(found.beta)].all()
 
@@ -208,7 +208,7 @@ def test_ctrl_c_ends_a_search_for_what_a_task_holds():
 
 def test_ctrl_c_ends_a_million_rows():
     rows = np.random.default_rng(1).uniform(-1, 1, (1_000_000, 2))
-    found = mw.evaluate("planar/force", rows, threads=1, callback=press())
+    found = mw.evaluate("planar/force", rows, threads=1, callback=press(1))
     left = np.array(found.status) == "budget_exhausted"
     assert left.any() and not left.all() and np.isnan(found.beta[left]).all()
 
