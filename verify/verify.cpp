@@ -5,6 +5,7 @@
 #include <mutex>
 #include <thread>
 
+#include "maxwrench/interruption.h"
 #include "verify/collision_proof.h"
 #include "verify/equations.h"
 #include "verify/incumbent.h"
@@ -98,7 +99,7 @@ class TreeWalk {
   void walk(OpenBox top) {
     std::vector<OpenBox> open;
     open.push_back(std::move(top));
-    while (!open.empty() && done.rejection.empty()) {
+    while (!open.empty() && done.rejection.empty() && !is_interrupted()) {
       OpenBox box = std::move(open.back());
       open.pop_back();
       if (check(box)) push_halves(box, open);
@@ -251,6 +252,7 @@ std::vector<OpenBox> first_boxes(TreeWalk& walk, OpenBox root) {
   std::size_t next = 0;
   for (; next < open.size() && open.size() - next < kEnough && walk.done.rejection.empty();
        ++next) {
+    end_if_interrupted();
     OpenBox box = open[next];
     if (walk.check(box)) walk.push_halves(box, open);
   }
@@ -279,9 +281,10 @@ Verification verify(const Problem& problem, const ProofCertificate& proof, int t
   add(first, result, failed);
   std::atomic<std::size_t> next = 0;
   std::mutex mutex;
-  const auto work = [&] {
+  const auto work = [&, flag = Interruption::flag()] {
+    const Interruption interruption(flag);
     TreeWalk walk(problem, model, equations, proof, second, value->clone());
-    for (std::size_t i = next++; i < open.size(); i = next++) {
+    for (std::size_t i = next++; i < open.size() && !is_interrupted(); i = next++) {
       walk.walk(open[i]);
       const std::lock_guard<std::mutex> guard(mutex);
       add(walk, result, failed);
@@ -293,6 +296,7 @@ Verification verify(const Problem& problem, const ProofCertificate& proof, int t
   for (int i = 1; i < threads; ++i) others.emplace_back(work);
   work();
   for (std::thread& each : others) each.join();
+  end_if_interrupted();
   return result;
 }
 

@@ -19,10 +19,10 @@ Units are SI: m, rad, N, N m, s. A wrench is [force; torque] that the robot exer
 in the axes of the world; ``moved``, ``to_pinocchio`` and ``to_drake`` change point, axes and order.
 """
 
-from . import _arguments, _core, _dict, _frames, _html, _map, _plot, _view
+from . import _arguments, _core, _dict, _frames, _html, _made, _map, _plot, _view
 from ._core import *  # noqa: F401,F403
 from ._core import Answer, Capability, Ellipsoid, Evaluations, Experiment, Explanation, Limit, Loss, LpAnswer, Map, Path, Polytope
-from ._core import HeldTrajectory, Pose, Robot, Task, TrajectoryProof, VerifiedProof, VerifiedTrajectory
+from ._core import HeldTrajectory, Pose, Posture, Robot, Task, TrajectoryProof, VerifiedProof, VerifiedTrajectory
 from ._core import __version__
 from ._frames import from_drake, from_pinocchio, moved, to_drake, to_pinocchio
 from ._errors import SearchEnded
@@ -53,11 +53,18 @@ for _result in (
     Loss,
     LpAnswer,
     Polytope,
+    Posture,
     TrajectoryProof,
     VerifiedProof,
     VerifiedTrajectory,
 ):
     setattr(_result, "to_dict", _dict.dict_of)
+for _made_again in (Path, Pose, Robot, Task):
+    setattr(_made_again, "to_dict", _made.dict_of)
+    setattr(_made_again, "from_dict", _made.maker_of(_made_again))
+for _kind in list(vars(_core).values()):
+    if hasattr(_kind, "to_dict") and not hasattr(_kind, "to_json"):
+        setattr(_kind, "to_json", _made.json_of)
 Answer.plot = _plot.plot_answer
 Answer.view = _view.view_answer
 setattr(Map, "best", property(_map.best_of))

@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 
+from . import _core
+
 
 def dict_of(self):
     """Returns what a result says, by the names of its attributes: numbers, texts, lists and dicts.
@@ -43,4 +45,6 @@ def plain(value):
         return {str(key): plain(item) for key, item in value.items()}
     if isinstance(value, (list, tuple)):
         return [plain(item) for item in value]
-    return value.to_dict() if hasattr(value, "to_dict") else value.name
+    if isinstance(value, (_core.Task, _core.Robot)):
+        return value.name
+    return value.to_dict()

@@ -1,5 +1,7 @@
 """The errors of the package."""
 
+import json
+
 
 class InputError(ValueError):
     """A wrong argument or file, in one line that names the key, the value and what was expected.
@@ -15,6 +17,18 @@ class InputError(ValueError):
     """
 
     file = key = value = expected = None
+
+    def to_dict(self):
+        """Returns the line and its parts by their names.
+
+        >>> maxwrench.InputError("a line").to_dict()["line"]
+        'a line'
+        """
+        return {"line": str(self)} | {name: getattr(self, name) for name in ("file", "key", "value", "expected")}
+
+    def to_json(self):
+        """Returns ``to_dict()`` as a text of JSON."""
+        return json.dumps(self.to_dict())
 
 
 class MissingFileError(InputError, FileNotFoundError):

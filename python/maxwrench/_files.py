@@ -10,7 +10,9 @@ def write_bytes(path, content):
     """Writes a file under a temporary name and renames it."""
     folder, name = os.path.split(os.path.abspath(path))
     if not os.path.isdir(folder):
-        raise bad_value("path", os.fspath(path), "a file in a folder that exists", file=os.fspath(path), kind=MissingFileError)
+        error = bad_value("path", os.fspath(path), "a file in a folder that exists", kind=MissingFileError)
+        error.file = error.value
+        raise error
     with tempfile.NamedTemporaryFile(dir=folder, prefix=f".{name}.", delete=False) as file:
         try:
             file.write(content)

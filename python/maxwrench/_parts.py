@@ -8,6 +8,7 @@ from typing import Mapping, Sequence
 from numpy.typing import ArrayLike
 
 from ._core import Pose
+from ._made import Part
 
 ZEROS = (0.0, 0.0, 0.0)
 NO_COEFFICIENTS = (0.0,) * 6
@@ -17,7 +18,7 @@ INFINITY = float("inf")
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Hydrodynamics:
+class Hydrodynamics(Part):
     """Added mass and drag of one body, diagonal in the axes of its own frame.
 
     They act on the velocity v = [linear; angular] at the origin of the frame. The force of the drag is
@@ -38,7 +39,7 @@ class Hydrodynamics:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Link:
+class Link(Part):
     """A rigid body of a robot made in code.
 
     Attributes: ``name``; ``mass`` [kg]; ``com``, the centre of mass in link axes (3) [m]; ``inertia``
@@ -60,7 +61,7 @@ class Link:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Gear:
+class Gear(Part):
     """A gear that moves a joint with another one: q = ratio q_leader + offset.
 
     The joint has no motor of its own; ``Joint.effort_max`` is the limit of the gear. Neither joint may be
@@ -78,7 +79,7 @@ class Gear:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Joint:
+class Joint(Part):
     """A joint of a robot made in code, and its motor.
 
     Attributes: ``name``; ``parent``, the name or index of the link that carries it, an earlier one than the
@@ -104,7 +105,7 @@ class Joint:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Thruster:
+class Thruster(Part):
     """A thruster, fixed to the base.
 
     Attributes: ``name``; ``position`` in base axes (3) [m]; ``direction`` of the force on the base at
@@ -123,7 +124,7 @@ class Thruster:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class EndEffector:
+class EndEffector(Part):
     """A frame on a link that can touch the environment.
 
     Attributes: ``name``; ``link``, the name or index of the link that carries it; ``placement``, its Pose
@@ -139,7 +140,7 @@ class EndEffector:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Shape:
+class Shape(Part):
     """A collision shape, fixed to a link of a robot made in code.
 
     Attributes: ``link``, its name or index; ``kind``, "capsule" (all points within ``radius`` of a segment
@@ -163,7 +164,7 @@ class Shape:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Direction:
+class Direction(Part):
     """A direction of the wrenches that a second contact may exert.
 
     Attributes: ``direction`` [force; torque] in contact axes (6); ``min`` and ``max``, the limits of its
@@ -180,7 +181,7 @@ class Direction:
 
 
 @dataclasses.dataclass(frozen=True, eq=False)
-class Contact:
+class Contact(Part):
     """A second contact of a static task: another end effector touches the environment.
 
     Attributes: ``end_effector``, its name; ``forces``, what the robot may exert: "none", "point" (any

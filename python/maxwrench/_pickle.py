@@ -1,6 +1,7 @@
 """Pickled objects: how each was made, and how it is made again."""
 
-from . import _core
+import importlib
+
 from ._errors import bad_value
 
 
@@ -8,7 +9,7 @@ def remake(function, arguments, digest):
     """Calls the function that made the object. Files must be what they were then."""
     if function == "Task.robot":
         return arguments["task"].robot
-    maker = _core
+    maker = importlib.import_module("maxwrench")
     for name in function.split("."):
         maker = getattr(maker, name)
     made = maker(**arguments)

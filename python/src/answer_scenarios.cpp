@@ -1,6 +1,7 @@
 #include <pybind11/stl.h>
 
 #include "maxwrench/sensitivity.h"
+#include "python/src/background.h"
 #include "python/src/parts.h"
 
 namespace maxwrench::python {
@@ -34,10 +35,7 @@ py::object decides_at(const PyAnswer& self) {
 
 py::list scenarios(const PyAnswer& self) {
   std::vector<ScenarioEnds> ends;
-  {
-    const py::gil_scoped_release release;
-    ends = scenario_ends(self.answer);
-  }
+  run_or_interrupt([&] { ends = scenario_ends(self.answer); });
   py::list list;
   for (const ScenarioEnds& each : ends) {
     py::dict entry;
@@ -53,10 +51,7 @@ py::list scenarios(const PyAnswer& self) {
 py::dict sample_of(const PyAnswer& self, long n, std::uint64_t seed,
                    std::optional<double> guaranteed) {
   ScenarioSample sample;
-  {
-    const py::gil_scoped_release release;
-    sample = sample_scenarios(self.answer, n, seed, guaranteed);
-  }
+  run_or_interrupt([&] { sample = sample_scenarios(self.answer, n, seed, guaranteed); });
   py::dict numbers;
   numbers["drawn"] = sample.drawn;
   numbers["infeasible"] = sample.infeasible;

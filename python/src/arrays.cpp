@@ -35,6 +35,18 @@ bool has_masked(const py::object& value) {
   return py::bool_(py::module_::import("numpy.ma").attr("is_masked")(value));
 }
 
+/// The array of any object; null if NumPy makes none of it. Unlike py::array::ensure it lets Ctrl-C
+/// pass.
+py::array array_of(const py::object& value) {
+  const auto& api = py::detail::npy_api::get();
+  auto array = py::reinterpret_steal<py::array>(api.PyArray_FromAny_(
+      value.ptr(), nullptr, 0, 0, py::detail::npy_api::NPY_ARRAY_ENSUREARRAY_, nullptr));
+  if (array) return array;
+  if (PyErr_ExceptionMatches(PyExc_Exception) == 0) throw py::error_already_set();
+  PyErr_Clear();
+  return array;
+}
+
 }  // namespace
 
 std::string shape_of(const Array& array) {
@@ -50,11 +62,8 @@ Array numbers(std::string_view key, const py::object& value) {
   if (has_masked(value)) {
     throw BadValue(key, "a masked array", "an array without masked numbers");
   }
-  py::array any = py::array::ensure(value);
-  if (!any) {
-    PyErr_Clear();
-    reject("a " + std::string(py::str(py::type::of(value).attr("__name__"))));
-  }
+  const py::array any = array_of(value);
+  if (!any) reject("a " + std::string(py::str(py::type::of(value).attr("__name__"))));
   const char kind = any.dtype().kind();
   if (kind != 'f' && kind != 'i' && kind != 'u') {
     reject("dtype " + std::string(py::str(any.dtype())));

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "maxwrench/interruption.h"
 #include "maxwrench/solve.h"
 #include "problems/make/bad_value.h"
 
@@ -99,6 +100,21 @@ void run_in_background(const py::object& callback, const std::function<void(Watc
   }
   if (of_python) std::rethrow_exception(of_python);
   if (of_computation) std::rethrow_exception(of_computation);
+}
+
+void run_or_interrupt(const std::function<void()>& compute) {
+  bool stopped = false;
+  run_in_background(py::none(), [&](Watch& watch) {
+    const Interruption interruption(&watch.stop);
+    try {
+      compute();
+    } catch (const Interrupted&) {
+    }
+    stopped = watch.stop;
+  });
+  if (!stopped) return;
+  PyErr_SetNone(PyExc_KeyboardInterrupt);
+  throw py::error_already_set();
 }
 
 void watch_over(Watch& watch, Options& options) {

@@ -40,6 +40,9 @@ py::handle search_ended();
 /// @param compute   the computation
 void run_in_background(const py::object& callback, const std::function<void(Watch&)>& compute);
 
+/// Runs `compute`, which has no partial result, likewise. Ctrl-C raises KeyboardInterrupt.
+void run_or_interrupt(const std::function<void()>& compute);
+
 /// Lets Python watch and stop what is computed with these options.
 void watch_over(Watch& watch, Options& options);
 

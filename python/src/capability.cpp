@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include <mutex>
-#include <numeric>
-
 #include "maxwrench/batch.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/wrench_program.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
-#include "python/src/fields.h"
+#include "python/src/capabilities.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 #include "solvers/solve/method.h"
@@ -21,38 +18,6 @@
 
 namespace maxwrench::python {
 namespace {
-
-/// B and the limits of u, with their facets.
-using SharedZonotope = std::shared_ptr<const Zonotope>;
-
-/// The zonotopes of the last calls. Facets take milliseconds, a program microseconds.
-SharedZonotope zonotope_of(const RowMatrix& B, const Eigen::VectorXd& u_min,
-                           const Eigen::VectorXd& u_max) {
-  constexpr std::size_t kKept = 8;
-  static std::mutex mutex;
-  static std::vector<SharedZonotope> kept;
-  const std::lock_guard lock(mutex);
-  for (const SharedZonotope& known : kept) {
-    if (known->B.rows() == B.rows() && known->B.cols() == B.cols() && known->B == B &&
-        known->u_min == u_min && known->u_max == u_max) {
-      return known;
-    }
-  }
-  if (kept.size() == kKept) kept.erase(kept.begin());
-  return kept.emplace_back(std::make_shared<const Zonotope>(make_zonotope(B, u_min, u_max)));
-}
-
-/// B of an argument; None: one direct drive for each of n joints.
-SharedZonotope actuators_in(const py::object& B, const py::object& lower, const py::object& upper,
-                            Eigen::Index n) {
-  const RowMatrix matrix_B =
-      B.is_none() ? RowMatrix(RowMatrix::Identity(n, n)) : matrix("B", B, n, -1);
-  require_all_finite("B", matrix_B);
-  const Eigen::VectorXd u_min = vector("lower", lower, matrix_B.cols());
-  const Eigen::VectorXd u_max = vector("upper", upper, matrix_B.cols());
-  require_bounds("lower", u_min, "upper", u_max, 0);
-  return zonotope_of(matrix_B, u_min, u_max);
-}
 
 /// A task with nothing but actuators and directions: what measures need beside J and tau_d.
 Problem task_of_arrays(const Zonotope& actuation, const Vector6d& c, const py::object& free) {
@@ -73,48 +38,6 @@ Problem task_of_arrays(const Zonotope& actuation, const Vector6d& c, const py::o
     task.W_any = qr.householderQ() * Eigen::MatrixXd::Identity(6, qr.rank());
   }
   return task;
-}
-
-/// The results of many programs, with the shape of the leading axes.
-struct Capabilities {
-  std::vector<py::ssize_t> shape;
-  std::vector<Status> status;
-  std::vector<std::string> reason;
-  Eigen::VectorXd beta;
-  RowMatrix h, u, lambda;
-
-  Capabilities() = default;
-  Capabilities(std::vector<py::ssize_t> leading, Eigen::Index m, Eigen::Index n)
-      : shape(std::move(leading)) {
-    const double none = std::numeric_limits<double>::quiet_NaN();
-    const Eigen::Index count =
-        std::accumulate(shape.begin(), shape.end(), Eigen::Index(1), std::multiplies<>());
-    status.assign(std::size_t(count), Status::kBudgetExhausted);
-    reason.resize(std::size_t(count));
-    beta = Eigen::VectorXd::Constant(count, none);
-    h.setConstant(count, 6, none);
-    u.setConstant(count, m, none);
-    lambda.setConstant(count, n, none);
-  }
-  void store(Eigen::Index i, const Capability& capability) {
-    Status& how = status[std::size_t(i)] = capability.status;
-    reason[std::size_t(i)] = capability.reason.str();
-    if (how != Status::kOptimal) return;
-    if (!satisfies_program(capability)) {
-      how = Status::kNumericalError;
-      reason[std::size_t(i)] = "the answer does not satisfy its program";
-      return;
-    }
-    beta[i] = capability.beta;
-    if (capability.w.size() > 0) h.row(i) = capability.h;
-    if (capability.u.size() > 0) u.row(i) = capability.u;
-    if (capability.lambda.size() > 0) lambda.row(i) = capability.lambda;
-  }
-};
-
-template <class Archive>
-void fields(Archive& archive, Capabilities& c) {
-  archive(c.shape, c.status, c.reason, c.beta, c.h, c.u, c.lambda);
 }
 
 /// The leading axes of J and tau_d by NumPy's rules. Whichever lacks some of them is repeated.
@@ -211,62 +134,6 @@ Capabilities capability_of(const py::object& J_given, const py::object& tau_give
   return result;
 }
 
-/// The program max s subject to B u = tau_d + s w, as a wrench program with one column.
-Capabilities scale(const py::object& B, const py::object& lower, const py::object& upper,
-                   const py::object& tau_given, const py::object& w_given) {
-  const Eigen::VectorXd tau_d = vector("tau_d", tau_given);
-  const Eigen::VectorXd w = vector("w", w_given, tau_d.size());
-  require_all_finite("tau_d", tau_d);
-  require_all_finite("w", w);
-  const SharedZonotope actuation = actuators_in(B, lower, upper, tau_d.size());
-  WrenchProgram program;
-  program.actuation = actuation.get();
-  program.W = Matrix6Xd::Zero(6, 1);
-  program.C_2.resize(6, 0);
-  program.c_w = Eigen::VectorXd::Ones(1);
-  program.w_min = Eigen::VectorXd::Constant(1, -kInfinity);
-  program.w_max = Eigen::VectorXd::Constant(1, kInfinity);
-  program.JtW = w;
-  program.tau_d = tau_d;
-  Capability capability;
-  find_wrench_solver(actuation->has_facets ? "facets" : "condensed")
-      .make()
-      ->solve(program, true, capability);
-  Capabilities result({}, actuation->actuators(), tau_d.size());
-  if (capability.status == Status::kOptimal) {
-    capability.residual = recheck(program, capability.u, capability.w, capability.lambda);
-    capability.w.resize(0);  // there is no wrench
-  }
-  result.store(0, capability);
-  return result;
-}
-
-/// An array with the leading axes, and one more of `last` numbers.
-py::object shaped(const py::object& self, const RowMatrix& rows) {
-  std::vector<py::ssize_t> shape = self.cast<const Capabilities&>().shape;
-  shape.push_back(rows.cols());
-  return view(rows.data(), shape, self);
-}
-
-/// A value of each program: that itself if there is one program without leading axes.
-template <class Value>
-py::object each(const Capabilities& results, Value value) {
-  if (results.shape.empty()) return py::cast(value(0));
-  py::list list;
-  for (std::size_t i = 0; i < results.status.size(); ++i) list.append(value(i));
-  return py::module_::import("numpy")
-      .attr("array")(list, py::arg("dtype") = "str")
-      .attr("reshape")(results.shape);
-}
-
-std::string repr_of_capability(const Capabilities& self) {
-  if (self.shape.empty()) {
-    return fmt::format("<Capability: {}, {:.6g}>", to_string(self.status.front()), self.beta[0]);
-  }
-  const auto count = std::count(self.status.begin(), self.status.end(), Status::kOptimal);
-  return fmt::format("<Capability of {} programs, {} with a value>", self.status.size(), count);
-}
-
 constexpr const char* kCapability = R"(Finds the capability of arrays: of whatever model a user has.
 
     max c'h  subject to  B u - J'h = tau_d,  lower <= u <= upper,  h = c x + free w
@@ -298,84 +165,13 @@ Raises:
 4.0
 )";
 
-constexpr const char* kScale =
-    R"(Finds the largest factor of a demanded generalised force that actuators reach.
-
-    max s  subject to  B u = tau_d + s w,  lower <= u <= upper
-
-The force keeps its direction: a thruster allocation that saturates does not bend it. The facets of
-{B u} of the last eight B and limits are kept, so that a call takes microseconds.
-
-Args:
-    B: efforts to generalised forces (n×m); None: one direct drive for each coordinate.
-    lower, upper: limits of the efforts (m).
-    tau_d: generalised force that is needed in any case (n).
-    w: demanded generalised force (n).
-
-Returns:
-    Capability: beta is the factor; u (m), lambda_ (n), status.
-
-Raises:
-    InputError: shapes do not fit, a number is not finite, or limits cross.
-
->>> maxwrench.scale([[1, 1]], [-1, -1], [1, 1], [0], [4]).beta
-0.5
-)";
-
 }  // namespace
 
 void add_capability(py::module_& m) {
-  py::class_<Capabilities>(m, "Capability", R"(The result of ``capability`` or ``scale``.
-
-Arrays are read-only and NaN where there is no value.
-
->>> J, tau_d = numpy.full((3, 6, 2), 0.5), numpy.zeros((3, 2))
->>> result = maxwrench.capability(J, tau_d, [-2, -2], [2, 2], "x")
->>> result.beta.shape, result.u.shape, result.status[0]
-((3,), (3, 2), 'optimal')
-)")
-      .def_property_readonly(
-          "beta",
-          [](const py::object& self) -> py::object {
-            const auto& results = self.cast<const Capabilities&>();
-            if (results.shape.empty()) return py::float_(results.beta[0]);
-            return view(results.beta.data(), results.shape, self);
-          },
-          "The values (...); a number without leading axes.")
-      .def_property_readonly(
-          "h",
-          [](const py::object& self) { return shaped(self, self.cast<const Capabilities&>().h); },
-          "Wrenches [force; torque] that the robot exerts (..., 6).")
-      .def_property_readonly(
-          "u",
-          [](const py::object& self) { return shaped(self, self.cast<const Capabilities&>().u); },
-          "Efforts (..., m).")
-      .def_property_readonly(
-          "lambda_",
-          [](const py::object& self) {
-            return shaped(self, self.cast<const Capabilities&>().lambda);
-          },
-          "Multipliers: derivatives of the values by tau_d (..., n).")
-      .def_property_readonly(
-          "status",
-          [](const Capabilities& c) {
-            return each(c, [&c](std::size_t i) { return to_string(c.status[i]); });
-          },
-          "The status of each program: optimal, infeasible, unbounded or numerical_error.")
-      .def_property_readonly(
-          "reason",
-          [](const Capabilities& c) {
-            return each(c, [&c](std::size_t i) { return c.reason[i]; });
-          },
-          "Why there is no value; empty if there is one.")
-      .def("__repr__", &repr_of_capability)
-      .def(py::pickle(&pack<Capabilities>, &unpack<Capabilities>));
   m.def("capability", &capability_of, py::arg("J"), py::arg("tau_d"), py::arg("lower"),
         py::arg("upper"), py::arg("c"), py::arg("B") = py::none(), py::kw_only(),
         py::arg("free") = py::none(), py::arg("measure") = Case().measure, py::arg("solver") = "",
         py::arg("threads") = 0, kCapability);
-  m.def("scale", &scale, py::arg("B"), py::arg("lower"), py::arg("upper"), py::arg("tau_d"),
-        py::arg("w"), kScale);
 }
 
 }  // namespace maxwrench::python

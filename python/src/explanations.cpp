@@ -5,6 +5,7 @@
 
 #include "maxwrench/explain.h"
 #include "python/src/arrays.h"
+#include "python/src/background.h"
 #include "python/src/fields.h"
 #include "python/src/parts.h"
 
@@ -26,10 +27,7 @@ struct PyExplanation {
 
 PyExplanation explained(const PyAnswer& answer, double share) {
   Explanation found;
-  {
-    const py::gil_scoped_release released;
-    found = explain(answer.answer, {share});
-  }
+  run_or_interrupt([&] { found = explain(answer.answer, {share}); });
   return {std::move(found), answer, share};
 }
 

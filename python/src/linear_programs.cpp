@@ -6,12 +6,16 @@
 #include "maxwrench/strategies.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
+#include "python/src/background.h"
 #include "python/src/fields.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
 
 namespace maxwrench::python {
 namespace {
+
+/// Entries of a matrix whose program takes about as long as another thread.
+constexpr Eigen::Index kSmall = 500;
 
 /// The answer of a linear program, with its residuals.
 struct LpAnswer {
@@ -68,8 +72,7 @@ LpAnswer linprog(const py::object& c, const py::object& A, const py::object& b, 
   validate(program);
   const LpEntry& entry = find_lp_solver(solver);
   LpAnswer answer;
-  {
-    const py::gil_scoped_release released;
+  const auto solve = [&] {
     entry.make()->solve(program, answer.solution);
     answer.residual = residuals(program, answer.solution);
     // No status counts that the data do not confirm.
@@ -79,6 +82,13 @@ LpAnswer linprog(const py::object& c, const py::object& A, const py::object& b, 
     if (claims && !verified(program, answer.solution)) {
       answer.solution.conclude(Status::kNumericalError, "the data do not confirm the verdict");
     }
+  };
+  // A small program ends before a key is pressed.
+  if (program.A.nonZeros() > kSmall) {
+    run_or_interrupt(solve);
+  } else {
+    const py::gil_scoped_release released;
+    solve();
   }
   if (answer.solution.status != Status::kOptimal) {
     answer.solution.objective = std::numeric_limits<double>::quiet_NaN();

@@ -8,6 +8,7 @@
 #include "maxwrench/motion_table.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
+#include "python/src/background.h"
 #include "python/src/fields.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
@@ -82,8 +83,9 @@ MotionMargin compute_margin(const py::object& task, const py::object& motion,
     set = margin_ball(names_in("ball", axes), ball_frame == "end_effector");
   }
   const std::vector<Instant> instants = instants_in(*of.problem, motion, instants_per_interval);
-  const py::gil_scoped_release release;
-  return motion_margin(*of.problem, instants, set);
+  MotionMargin margin;
+  run_or_interrupt([&] { margin = motion_margin(*of.problem, instants, set); });
+  return margin;
 }
 
 py::array numbers_of(const MotionMargin& margin, double InstantMargin::*number) {

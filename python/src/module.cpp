@@ -20,6 +20,7 @@ True
   python::add_robot_parts(m);
   python::add_paths(m);
   python::add_tasks(m);
+  python::add_task_makers(m);
   python::add_transfers(m);
   python::add_explanations(m);
   python::add_answers(m);
@@ -29,7 +30,9 @@ True
   python::add_maps(m);
   python::add_fronts(m);
   python::add_margins(m);
+  python::add_capabilities(m);
   python::add_capability(m);
+  python::add_scale(m);
   python::add_linear_programs(m);
   python::add_tank(m);
   python::add_held(m);
@@ -37,5 +40,6 @@ True
   python::add_trajectory_proofs(m);
   python::add_wrench_sets(m);
   python::add_view(m);
-  python::add_strategies(m);
+  python::add_own_measures(m);
+  python::add_own_searches(m);
 }

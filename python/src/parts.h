@@ -91,6 +91,7 @@ void add_robots(py::module_& m);
 void add_robot_parts(py::module_& m);
 void add_paths(py::module_& m);
 void add_tasks(py::module_& m);
+void add_task_makers(py::module_& m);
 void add_transfers(py::module_& m);
 void add_explanations(py::module_& m);
 void add_sensitivity(py::module_& m);
@@ -99,7 +100,9 @@ void add_fronts(py::module_& m);
 void add_answers(py::module_& m);
 void add_solve(py::module_& m);
 void add_evaluations(py::module_& m);
+void add_capabilities(py::module_& m);
 void add_capability(py::module_& m);
+void add_scale(py::module_& m);
 void add_linear_programs(py::module_& m);
 void add_tank(py::module_& m);
 void add_held(py::module_& m);
@@ -107,6 +110,7 @@ void add_proofs(py::module_& m);
 void add_trajectory_proofs(py::module_& m);
 void add_wrench_sets(py::module_& m);
 void add_view(py::module_& m);
-void add_strategies(py::module_& m);
+void add_own_measures(py::module_& m);
+void add_own_searches(py::module_& m);
 
 }  // namespace maxwrench::python

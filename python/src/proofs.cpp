@@ -124,12 +124,11 @@ py::object verify_file(const py::object& path, const py::object& task, int threa
     return verify_motion(file, given, threads);
   }
   VerifiedProof result;
-  {
-    const py::gil_scoped_release released;
+  run_or_interrupt([&] {
     result = verify_certificate(
         file, [&](const std::string& name) { return given ? *given : load_problem(name); },
         threads);
-  }
+  });
   return py::cast(std::move(result));
 }
 

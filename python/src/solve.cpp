@@ -58,9 +58,12 @@ py::object evaluate_task(const py::object& task, const py::object& theta_r,
   }
   const Eigen::MatrixXd knots = knots_in(given, *of.problem);
   PyAnswer result{{}, of};
-  {
+  const auto compute = [&] { result.answer = evaluate(*of.problem, knots, options); };
+  if (of.problem->motion) {
+    run_or_interrupt(compute);
+  } else {  // a posture takes less time than another thread
     const py::gil_scoped_release released;
-    result.answer = evaluate(*of.problem, knots, options);
+    compute();
   }
   return py::cast(std::move(result));
 }

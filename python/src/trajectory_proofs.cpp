@@ -110,12 +110,11 @@ py::object certify_motion(const PyTask& task, const py::object& theta_r, const O
 py::object verify_motion(const std::string& file, const std::optional<Problem>& given,
                          int threads) {
   VerifiedTrajectory result;
-  {
-    const py::gil_scoped_release released;
+  run_or_interrupt([&] {
     result = verify_trajectory_certificate(
         file, [&](const std::string& name) { return given ? *given : load_problem(name); },
         threads);
-  }
+  });
   return py::cast(std::move(result));
 }
 

@@ -5,6 +5,7 @@
 #include "maxwrench/wrench_set.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
+#include "python/src/background.h"
 #include "python/src/parts.h"
 
 namespace maxwrench::python {
@@ -55,8 +56,9 @@ WrenchSet polytope(const py::object& task, const py::object& theta_r, const py::
   options.wrench = parse_wrench(wrench);
   options.measure = measure;
   options.solver = solver;
-  const py::gil_scoped_release released;
-  return force_polytope(*placed.task, placed.posture, options);
+  WrenchSet set;
+  run_or_interrupt([&] { set = force_polytope(*placed.task, placed.posture, options); });
+  return set;
 }
 
 WrenchEllipsoid ellipsoid(const py::object& task, const py::object& theta_r,

@@ -116,4 +116,5 @@ def test_a_missing_folder_is_named_as_it_was_given(tmp_path):
     for write in (proof.save, mw.evaluate("planar/force", [0, 0]).view):
         with pytest.raises(FileNotFoundError) as caught:
             write(file)
-        assert str(caught.value) == f"{file}: path: got {file}, expected a file in a folder that exists"
+        assert str(caught.value) == f"path: got {file}, expected a file in a folder that exists"
+        assert (caught.value.file, caught.value.key, caught.value.value) == (file, "path", file)

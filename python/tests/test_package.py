@@ -1,5 +1,6 @@
 """The package as a whole: its names, their docstrings, and the methods written in Python."""
 
+import re
 import types
 from pathlib import Path
 
@@ -48,3 +49,27 @@ def test_the_package_brings_all_files_of_the_problems():
     ours = files_of(copy)
     assert ours and ours == files_of(source)
     assert mw.load("gallery/ur10/lift").robot.warnings == []
+
+
+def public_names():
+    """Every name of the package, and every member of its classes."""
+    for name in mw.__all__:
+        thing = getattr(mw, name)
+        yield name
+        if isinstance(thing, type):
+            yield from (f"{name}.{member}" for member in vars(thing) if not member.startswith("_"))
+
+
+def is_tested(name, text):
+    """Whether a test names it: as an attribute, an argument of a part, or a text such as "beta" in a list of names."""
+    last = name.rpartition(".")[2]
+    return re.search(rf"(?:\.|[\"'])(?:\w+\.)?{last}\b|\b{last}=", text) is not None
+
+
+def test_every_public_name_has_a_test():
+    files = Path(__file__).parent.glob("test_*.py")
+    text = "\n".join(file.read_text() for file in files if file.name != Path(__file__).name)
+    names = list(public_names())
+    assert len(names) > 400
+    assert [name for name in names if name != "__version__" and not is_tested(name, text)] == []
+    assert not is_tested("no_such_name", text)

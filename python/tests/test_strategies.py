@@ -1,5 +1,6 @@
 """Measures and searches written in Python, by their names in solve and evaluate."""
 
+import re
 import time
 
 import maxwrench as mw
@@ -102,8 +103,27 @@ def test_a_value_that_is_nan_is_no_value():
 
     mw.add_measure(Nowhere())
     answer = mw.evaluate("planar/force", [0, 0], measure="nowhere")
-    assert not answer.has_value and np.isnan(answer.beta) and answer.reason
+    assert not answer.has_value and np.isnan(answer.beta)
+    assert (answer.status, answer.reason) == ("infeasible", "measure nowhere returned NaN")
     assert mw.solve("planar/force", measure="nowhere", search="sample", budget=50).status == "none_found"
+
+
+@pytest.mark.parametrize("number, said", [(np.nan, "NaN"), (np.inf, "an infinity"), (-np.inf, "an infinity")])
+@pytest.mark.parametrize("search", ["", "cmaes", "sample"])
+def test_a_search_says_where_a_measure_returned_no_number(number, said, search):
+    class Nowhere(mw.Measure):
+        name, unit = "nowhere", "m"
+
+        def value(self, posture):
+            return number
+
+    mw.add_measure(Nowhere())
+    # Most of these postures collide, which is not why a search finds nothing.
+    answer = mw.solve("uvms/valve", measure="nowhere", search=search, budget=100)
+    assert answer.status == "none_found"
+    found = re.fullmatch(rf"nothing that was evaluated has a value: measure nowhere returned {said} at theta_r = (.*)", answer.reason)
+    theta_r = [float(number) for number in found[1].split()]
+    assert mw.evaluate("uvms/valve", theta_r).has_value  # a posture there is
 
 
 @pytest.mark.parametrize("search", ["sample", "cmaes", "crs2", "slsqp", "multistart", "de", "annealing"])
@@ -135,16 +155,78 @@ def test_wrong_results_of_a_measure(rejects):
             return np.zeros(2), np.zeros((6, 3))
 
     mw.add_measure(Wrong())
-    assert rejects(mw.evaluate, "planar/force", [0, 0], measure="wrong").key.startswith("derivatives")
+    assert rejects(mw.evaluate, "planar/force", [0, 0], measure="wrong").key == "wrong.derivatives[0]"
 
-    class Text(mw.Measure):
-        name = "text"
+
+@pytest.mark.parametrize(
+    "value, got",
+    [
+        (None, "None"),
+        ("1.5", "dtype <U3"),
+        (1j, "dtype complex128"),
+        (True, "dtype bool"),
+        (object(), "dtype object"),
+        (np.array([1.0, 2.0]), "shape (2,)"),
+        (np.array([]), "shape (0,)"),
+        (np.ma.masked_array([1.0], [True]), "a masked array"),
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("call", [lambda m: mw.evaluate("planar/force", [0, 0], measure=m), lambda m: mw.solve("planar/force", measure=m, budget=20)])
+def test_what_is_no_value_of_a_measure(rejects, value, got, call):
+    class Odd(mw.Measure):
+        name = "odd"
 
         def value(self, posture):
-            return "a"
+            return value
 
-    mw.add_measure(Text())
-    assert "measure text" in str(rejects(mw.evaluate, "planar/force", [0, 0], measure="text"))
+    mw.add_measure(Odd())
+    assert str(rejects(call, "odd")).startswith(f"odd.value: got {got}, expected ")
+
+
+@pytest.mark.parametrize(
+    "pair, key, got",
+    [
+        (lambda p: [p.tau_d, p.J], "", ""),
+        (lambda p: p.tau_d, "", ""),
+        (lambda p: (None, p.J), "[0]", "None"),
+        (lambda p: (p.tau_d[1:], p.J), "[0]", "shape (4,)"),
+        (lambda p: (p.tau_d, p.J.T), "[1]", "shape (5, 6)"),
+        (lambda p: (p.tau_d * 1j, p.J), "[0]", "dtype complex128"),
+        (lambda p: (p.tau_d, p.J * np.nan), "[1]", "a NaN or an infinity"),
+        (lambda p: (p.tau_d + np.inf, p.J), "[0]", "a NaN or an infinity"),
+    ],
+)
+def test_what_are_no_derivatives_of_a_measure(rejects, pair, key, got):
+    class Sloped(mw.Measure):
+        name = "sloped"
+
+        def value(self, posture):
+            return 1.0
+
+        def derivatives(self, posture):
+            return pair(posture)
+
+    mw.add_measure(Sloped())
+    error = rejects(mw.evaluate, "planar/force", [0, 0], measure="sloped")
+    assert str(error).startswith(f"sloped.derivatives{key}: got {got}") and "expected" in str(error)
+
+
+def test_numbers_of_other_types_are_values():
+    class Narrow(mw.Measure):
+        name = "narrow"
+
+        def value(self, posture):
+            return kind(2.5)
+
+        def derivatives(self, posture):
+            return posture.tau_d.astype("f4"), np.asfortranarray(posture.J.astype("i8"))
+
+    mw.add_measure(Narrow())
+    for kind in (float, np.float32, np.float64, np.array):
+        assert mw.evaluate("planar/force", [0, 0], measure="narrow").beta == 2.5
+    kind = int
+    assert mw.evaluate("planar/force", [0, 0], measure="narrow").beta == 2
 
 
 def test_names_of_strategies(rejects):

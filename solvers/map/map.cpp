@@ -8,6 +8,7 @@
 #include <map>
 #include <mutex>
 #include <set>
+#include <span>
 
 #include "lib/math/random.h"
 #include "maxwrench/batch.h"
@@ -26,6 +27,8 @@ using Index = Lattice::Index;
 constexpr double kNoCellValue = std::numeric_limits<double>::quiet_NaN();
 /// The budget of a level after level 0, as a divisor of that of level 0.
 constexpr long kWarmShare = 5;
+/// How many cells are computed between looks at whether the map was interrupted.
+constexpr std::size_t kBatch = 4096;
 /// A cell is improved if a search from scratch exceeds it by more than this share.
 constexpr double kImproved = 1e-3;
 
@@ -59,6 +62,7 @@ class MapMaker {
     for (int level = 0; level <= lattice_.grid_level(); ++level) {
       std::set<Index> places;
       for (const Index& cell : lattice_.shard_cells(level)) {
+        if (ends()) return;
         for (Index& corner : lattice_.corners(cell, level)) places.insert(std::move(corner));
       }
       compute(places, level);
@@ -68,6 +72,7 @@ class MapMaker {
       std::set<Index> places;
       std::vector<Index> finer;
       for (const Index& cell : cells) {
+        if (ends()) return;
         if (!changes_within(cell, level)) continue;
         for (Index& place : lattice_.halved(cell, level)) places.insert(std::move(place));
         const std::vector<Index> within = lattice_.children(cell, level);
@@ -94,6 +99,12 @@ class MapMaker {
       if (!cells_.contains(place)) todo.push_back(&place);
     }
     all_ += static_cast<long>(todo.size());
+    for (std::size_t first = 0; first < todo.size() && !ends(); first += kBatch) {
+      compute_batch(std::span(todo).subspan(first, std::min(kBatch, todo.size() - first)), level);
+    }
+  }
+
+  void compute_batch(std::span<const Index* const> todo, int level) {
     std::vector<MapCell> made(todo.size());
     parallel_for(threads_, static_cast<long>(todo.size()), [&](long i) {
       const Index& place = *todo[static_cast<std::size_t>(i)];
@@ -108,6 +119,12 @@ class MapMaker {
       if (made[i].status == Status::kBudgetExhausted) continue;
       cells_.emplace(*todo[i], std::move(made[i]));
     }
+  }
+
+  /// Whether the map was interrupted.
+  bool ends() {
+    if (options_.interrupted && options_.interrupted()) interrupted_ = true;
+    return interrupted_;
   }
 
   /// Whether a cell lacks a check or a bound that the plan asks for.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "maxwrench/interruption.h"
 #include "maxwrench/margin.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/strategies.h"
@@ -179,6 +180,7 @@ MotionMargin motion_margin(const Problem& task, const std::vector<Instant>& inst
   scan.scan(instants.front());  // sizes what it stores
   const MarginClock::time_point start = MarginClock::now();
   for (std::size_t i = 0; i < instants.size(); ++i) {
+    end_if_interrupted();
     result.instants[i].margin = scan.scan(instants[i]);
   }
   result.wall_s = margin_seconds_since(start);
@@ -187,6 +189,7 @@ MotionMargin motion_margin(const Problem& task, const std::vector<Instant>& inst
   int unverified = -1;
   bool unbounded = true;
   for (std::size_t i = 0; i < instants.size(); ++i) {
+    end_if_interrupted();
     InstantMargin& at = result.instants[i];
     scan.scan(instants[i]);
     const ScenarioLimits& limits =

@@ -87,8 +87,7 @@ class FrontMaker {
 
   Front make() {
     const auto start = std::chrono::steady_clock::now();
-    find_own();
-    if (front_.status != Status::kNoneFound) {
+    if (find_own()) {
       const auto count = static_cast<Eigen::Index>(goals_.size());
       find_all();
       front_.compromise.weights.resize(count);
@@ -115,21 +114,27 @@ class FrontMaker {
   }
 
  private:
-  /// The best posture of each task alone, by the default search of its own or the given one.
-  void find_own() {
+  /// The best posture of each task alone, by the default search of its own or the given one. False:
+  /// one has no positive value, or the search for it was interrupted before.
+  bool find_own() {
+    bool all = true;
     for (const Goal& goal : goals_) {
       Options own = given_;
       static_cast<Case&>(own) = case_of(goal, given_);
       own.progress = {};
       Answer answer = solve(goal.task, own);
       front_.evaluations += answer.evaluations;
+      interrupted_ = interrupted_ || answer.status == Status::kBudgetExhausted;
       if (!answer.has_value() || !(answer.beta() > 0)) {
+        all = false;
         front_.conclude(Status::kNoneFound,
                         fmt::format("{} has no positive value", goal.task.name));
+        if (interrupted_) front_.conclude(Status::kBudgetExhausted, "interrupted");
       }
       if (answer.has_value()) postures_.push_back(answer.posture.theta_r);
       front_.own.push_back(std::move(answer));
     }
+    return all;
   }
 
   /// Searches for each weight of two tasks, twice: at first the starts are the best postures of the

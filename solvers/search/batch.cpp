@@ -12,6 +12,7 @@
 #include <string>
 
 #include "lib/math/require.h"
+#include "maxwrench/interruption.h"
 
 namespace maxwrench {
 
@@ -68,13 +69,17 @@ Eigen::VectorXd Box::start(const Eigen::VectorXd& start) const {
 
 void parallel_for(int threads, long count, const std::function<void(long)>& body) {
   if (threads == 1 || count == 1) {
-    for (long i = 0; i < count; ++i) body(i);
+    for (long i = 0; i < count; ++i) {
+      end_if_interrupted();
+      body(i);
+    }
     return;
   }
   // More workers than cores are of no use, and TBB warns of those it does not have.
   tbb::task_arena arena(std::min(threads, tbb::info::default_concurrency()));
   // Every body sees what the caller wrote before, and the caller sees what the bodies wrote. TBB
   // guarantees this, but a thread sanitizer does not know it; so these atomics state it again.
+  const std::atomic<bool>* const flag = Interruption::flag();
   std::atomic<long> begun{0}, ended{0};
   begun.store(1, std::memory_order_release);
   arena.execute([&] {
@@ -82,7 +87,11 @@ void parallel_for(int threads, long count, const std::function<void(long)>& body
         tbb::blocked_range<long>(0, count, 1),
         [&](const tbb::blocked_range<long>& range) {
           begun.load(std::memory_order_acquire);
-          for (long i = range.begin(); i < range.end(); ++i) body(i);
+          const Interruption interruption(flag);
+          for (long i = range.begin(); i < range.end(); ++i) {
+            end_if_interrupted();
+            body(i);
+          }
           ended.fetch_add(1, std::memory_order_release);
         },
         tbb::simple_partitioner());

@@ -7,9 +7,9 @@
 
 namespace maxwrench {
 
-inline constexpr double kNearing = 2;      ///< m per radius: how much nearer bodies may come
-inline constexpr double kSpare = 1e-9;     ///< m, added to the margin when bodies are moved apart
-inline constexpr int kApartRounds = 5;     ///< rounds of moving bodies apart
+inline constexpr double kNearing = 2;   ///< m per radius: how much nearer bodies may come
+inline constexpr double kSpare = 1e-9;  ///< m, added to the margin when bodies are moved apart
+inline constexpr int kApartRounds = 5;  ///< rounds of moving bodies apart
 
 /// The radius within which a linear program is trusted [rad or m].
 class TrustRegion {

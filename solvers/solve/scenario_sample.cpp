@@ -8,6 +8,7 @@
 
 #include "lib/math/random.h"
 #include "lib/scenario/current_load.h"
+#include "maxwrench/interruption.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/sensitivity.h"
@@ -106,6 +107,7 @@ ScenarioSample sample_scenarios(const Answer& answer, long draws, std::uint64_t 
   sample.guaranteed = guaranteed.value_or(answer.has_value() ? answer.beta() : -kInfinity);
   std::vector<double>& values = sample.values;
   for (long i = 0; i < draws; ++i) {
+    end_if_interrupted();
     Random random(seed, RandomUse::kModel, static_cast<std::uint64_t>(i));
     for (std::size_t group = 0; group < problem.scenarios.loads.size(); ++group) {
       drawn.scenarios.loads[group] = {drawn_case(problem.scenarios.loads[group], random)};

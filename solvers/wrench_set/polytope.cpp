@@ -5,6 +5,7 @@
 #include <string>
 
 #include "lib/math/quick_hull.h"
+#include "maxwrench/interruption.h"
 #include "solvers/wrench_set/boundary.h"
 #include "solvers/wrench_set/frame.h"
 
@@ -78,6 +79,7 @@ class PolytopeGrowth {
       const Hull found = hull();
       for (const HullFacet& facet : found.facets) {
         if (proven(facet)) continue;
+        end_if_interrupted();
         if (static_cast<int>(half_spaces_.size()) == most_) return false;
         if (!push(facet, before)) return false;
       }

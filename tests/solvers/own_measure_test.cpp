@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 #include <string>
 
 #include "maxwrench/load.h"
@@ -126,6 +127,25 @@ TEST(OwnMeasure, MayHaveNoValueInAPlace) {
   EXPECT_EQ(none.status, Status::kInfeasible);
   EXPECT_EQ(none.reason.str(), "the measure has no value here");
   EXPECT_EQ(answer.undecided, 0);
+}
+
+/// Most postures of this task collide. That is no reason where the measure has a posture.
+TEST(OwnMeasure, ASearchSaysThatItHasNoValueWhereThereIsAPosture) {
+  add_measure({"own_nowhere", "", false, false, "-", [](const Problem&, auto) {
+                 return make_value_measure(
+                     [](const Posture&, const WrenchProgram&) { return std::nan(""); });
+               }});
+  const Problem problem = load_problem("uvms/valve");
+  const Answer answer = solve(problem, of_measure("own_nowhere", "sample", 50));
+  EXPECT_EQ(answer.status, Status::kNoneFound);
+  const std::string reason = answer.reason.str();
+  const std::string expected =
+      "nothing that was evaluated has a value: the measure has no value here at theta_r = ";
+  ASSERT_EQ(reason.substr(0, expected.size()), expected);
+  std::istringstream numbers(reason.substr(expected.size()));
+  Eigen::MatrixXd theta_r(1, problem.redundancy());
+  for (double& number : theta_r.reshaped()) numbers >> number;
+  EXPECT_EQ(evaluate(problem, theta_r).status, Status::kOptimal);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "maxwrench/interruption.h"
 #include "verify/trajectory/motion_clearance.h"
 
 namespace maxwrench {
@@ -86,9 +87,10 @@ MotionFault check_efforts(const EffortLaw& law, int intervals, int parts, int th
   std::atomic<long> next = 0, first_bad = all;
   std::mutex mutex;
   MotionFault fault;
-  const auto work = [&] {
+  const auto work = [&, flag = Interruption::flag()] {
+    const Interruption interruption(flag);
     long own = 0;
-    for (long i = next++; i < all && i < first_bad; i = next++) {
+    for (long i = next++; i < all && i < first_bad && !is_interrupted(); i = next++) {
       MotionFault found = law.check(static_cast<int>(i / edges), static_cast<int>(i % edges), own);
       if (found.reason.empty()) continue;
       const std::lock_guard<std::mutex> guard(mutex);
@@ -103,6 +105,7 @@ MotionFault check_efforts(const EffortLaw& law, int intervals, int parts, int th
   for (int i = 1; i < threads; ++i) others.emplace_back(work);
   work();
   for (std::thread& each : others) each.join();
+  end_if_interrupted();
   return fault;
 }
 

@@ -233,6 +233,7 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
     knots = continued.trajectory.knots;
   }
   take_search(found, proof.answer);
+  if (options.interrupted && options.interrupted()) return proof;
   // A posture that is held can be better than what keeps the tighter limits.
   const Eigen::MatrixXd held = task.theta_r_default.transpose().replicate(task.motion->k, 1);
   const Answer at_rest = evaluate(task, held, proof_options);

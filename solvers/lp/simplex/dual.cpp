@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maxwrench/interruption.h"
 #include "solvers/lp/simplex/engine.h"
 
 namespace maxwrench::simplex {
@@ -57,6 +58,7 @@ Outcome Dual::run() {
   make_dual_feasible(true);
   for (;;) {
     if (e_.factor.updates() == s_.max_updates && !refresh()) return Outcome::kTrouble;
+    end_if_interrupted();
     if (e_.iterations >= e_.iteration_limit) return Outcome::kIterationLimit;
     r_ = choose_row();
     if (r_ < 0) return Outcome::kDone;

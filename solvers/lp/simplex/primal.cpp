@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "maxwrench/interruption.h"
 #include "solvers/lp/simplex/engine.h"
 
 namespace maxwrench::simplex {
@@ -43,6 +44,7 @@ Outcome Primal::run() {
   std::fill(e_.weights_.begin(), e_.weights_.end(), 1.0);
   for (;;) {
     if (e_.factor.updates() == s_.max_updates && !refresh()) return Outcome::kTrouble;
+    end_if_interrupted();
     if (e_.iterations >= e_.iteration_limit) return Outcome::kIterationLimit;
     const int q = choose_column();
     if (q < 0) return Outcome::kDone;

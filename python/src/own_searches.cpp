@@ -1,126 +1,17 @@
-#include "maxwrench/strategies.h"
-
-#include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include <cmath>
+
 #include "maxwrench/batch.h"
-#include "maxwrench/problem.h"
-#include "maxwrench/wrench_program.h"
+#include "maxwrench/strategies.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"
 #include "python/src/background.h"
 #include "python/src/parts.h"
-
-// Measures and searches that are written in Python. The library calls them from its own threads, so
-// each call takes the interpreter's lock. What they throw passes through the library to the caller
-// of solve.
+#include "python/src/shared_objects.h"
 
 namespace maxwrench::python {
 namespace {
-
-/// An object of Python that C++ threads may keep and drop without the lock.
-using Shared = std::shared_ptr<const py::object>;
-Shared share(const py::object& object) {
-  return {new py::object(object), [](const py::object* kept) {
-            const py::gil_scoped_acquire lock;
-            delete kept;
-          }};
-}
-
-std::string attribute_of(const py::object& object, const char* name, const std::string& otherwise) {
-  const py::object value = py::getattr(object, name, py::none());
-  return value.is_none() ? otherwise : py::str(value).cast<std::string>();
-}
-
-bool flag_of(const py::object& object, const char* name) {
-  return py::getattr(object, name, py::bool_(false)).cast<bool>();
-}
-
-// ---- Measures
-
-/// What a measure in Python sees of a posture: copies, which it may keep.
-struct PyPosture {
-  Eigen::VectorXd theta_r, q, tau_d, c, u_min, u_max;
-  RowMatrix J, B;
-};
-
-PyPosture seen(const Problem& task, const Posture& posture, const WrenchProgram& program) {
-  PyPosture view;
-  view.theta_r = posture.theta_r;
-  view.q = posture.q;
-  view.tau_d = posture.tau_d;
-  view.c.resize(6);
-  view.c << posture.turn * task.c.head<3>(), posture.turn * task.c.tail<3>();
-  view.J = posture.J;
-  view.B = program.actuation->B;
-  view.u_min = program.actuation->u_min;
-  view.u_max = program.actuation->u_max;
-  return view;
-}
-
-/// The number that a measure returns. Called with the lock.
-double value_of(const py::object& measure, const PyPosture& posture) {
-  const py::object value = measure.attr("value")(posture);
-  const py::object number = py::reinterpret_steal<py::object>(PyNumber_Float(value.ptr()));
-  if (number) return number.cast<double>();
-  PyErr_Clear();
-  throw BadValue("value", std::string(py::repr(value)),
-                 "a number from the measure " + attribute_of(measure, "name", ""));
-}
-
-/// A measure whose derivatives by tau_d and J are given by Python, too.
-class PythonMeasure : public Measure {
- public:
-  PythonMeasure(const Problem& task, Shared measure) : task_(task), measure_(std::move(measure)) {}
-
-  void evaluate_well_formed(const Posture& posture, const WrenchProgram& program, bool,
-                            Capability& capability) override {
-    const py::gil_scoped_acquire lock;
-    capability.beta = value_of(*measure_, seen(task_, posture, program));
-    capability.conclude(Status::kOptimal);
-    if (std::isnan(capability.beta)) {
-      capability.conclude(Status::kInfeasible, "the measure has no value here");
-    }
-  }
-  void differentiate(const Posture& posture, const WrenchProgram& program,
-                     Capability& capability) override {
-    const py::gil_scoped_acquire lock;
-    const py::object pair = measure_->attr("derivatives")(seen(task_, posture, program));
-    if (!py::isinstance<py::tuple>(pair) || py::len(pair) != 2) {
-      throw BadValue("derivatives", std::string(py::repr(pair)), "a pair of arrays (n) and (6, n)");
-    }
-    const Eigen::Index n = posture.tau_d.size();
-    capability.lambda = vector("derivatives[0]", pair[py::int_(0)], n);
-    capability.beta_J = matrix("derivatives[1]", pair[py::int_(1)], 6, n);
-  }
-
- private:
-  const Problem& task_;
-  Shared measure_;
-};
-
-std::unique_ptr<Measure> make_python_measure(const Problem& task, const Shared& measure,
-                                             bool has_derivatives) {
-  if (has_derivatives) return std::make_unique<PythonMeasure>(task, measure);
-  return make_value_measure([&task, measure](const Posture& posture, const WrenchProgram& program) {
-    const py::gil_scoped_acquire lock;
-    return value_of(*measure, seen(task, posture, program));
-  });
-}
-
-void add_python_measure(const py::object& measure) {
-  const std::string name = attribute_of(measure, "name", ""),
-                    unit = attribute_of(measure, "unit", "");
-  const std::string summary = attribute_of(measure, "__doc__", "a measure in Python");
-  const bool derivatives = py::hasattr(measure, "derivatives");
-  add_measure({name.c_str(), summary.c_str(), false, flag_of(measure, "supports_any"),
-               unit.empty() ? nullptr : unit.c_str(),
-               [shared = share(measure), derivatives](const Problem& task, auto) {
-                 return make_python_measure(task, shared, derivatives);
-               }});
-}
-
-// ---- Searches
 
 /// The objective as a search in Python sees it. It counts, keeps the best point, and ends the
 /// search. Its functions are called with the lock.
@@ -269,31 +160,6 @@ py::list points_of(const std::vector<Candidate>& candidates) {
   return points;
 }
 
-void add_posture(py::module_& m) {
-  py::class_<PyPosture> posture(m, "Posture", R"(What a measure sees of a posture.
-
->>> class Lever(maxwrench.Measure):
-...     name, unit = "lever", "m"
-...     def value(self, posture):                        # of the last joint about z
-...         return numpy.linalg.norm(posture.J[:2, -1])
->>> maxwrench.add_measure(Lever())
->>> maxwrench.evaluate("planar/force", [0, 0], measure="lever").status
-'optimal'
-)");
-  const auto member = [&posture](const char* name, auto PyPosture::*array, const char* doc) {
-    posture.def_property_readonly(
-        name, [array](const PyPosture& p) { return copy(p.*array); }, doc);
-  };
-  member("theta_r", &PyPosture::theta_r, "Redundant coordinates (r).");
-  member("q", &PyPosture::q, "All joints (J).");
-  member("tau_d", &PyPosture::tau_d, "Forces that the efforts must exert without contact (n).");
-  member("c", &PyPosture::c, "Unit direction [force; torque] of the task in the world (6).");
-  member("u_min", &PyPosture::u_min, "Lower limits of the efforts (m).");
-  member("u_max", &PyPosture::u_max, "Upper limits of the efforts (m).");
-  member("J", &PyPosture::J, "Jacobian (6×n): velocities to the twist of the end effector.");
-  member("B", &PyPosture::B, "Efforts to generalised forces (n×m).");
-}
-
 void add_objective(py::module_& m) {
   py::class_<PyObjective, std::shared_ptr<PyObjective>>(
       m, "Objective", R"(The function that a search maximises: beta at theta_r, or at stacked knots.
@@ -352,11 +218,9 @@ Once the budget is used or the user interrupts, a call ends the search by the ex
 
 }  // namespace
 
-void add_strategies(py::module_& m) {
+void add_own_searches(py::module_& m) {
   search_ended();
-  add_posture(m);
   add_objective(m);
-  m.def("_add_measure", &add_python_measure, py::arg("measure"));
   m.def("_add_search", &add_python_search, py::arg("search"));
 }
 
