@@ -1,7 +1,10 @@
 """Configuration of the site. docs/site/build makes its sources, in build/docs/source, and runs Sphinx."""
 
 import pathlib
+import string
 import sys
+
+from sphinx.search.en import SearchEnglish
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "docs/site"), str(ROOT / "build/python")]
@@ -31,6 +34,8 @@ html_math_renderer = "katex"
 html_theme = "furo"
 html_static_path = [str(ROOT / "docs/site/static")]
 html_css_files = ["site.css"]
+# A letter, as in Ctrl-C, finds what has nothing to do with it.
+SearchEnglish.stopwords.update(string.ascii_lowercase)
 html_search_scorer = str(ROOT / "docs/site/static/scorer.js")
 # The report, the paper and the pages of view are linked as files.
 html_extra_path = [str(ROOT / "build/docs/extra")]
