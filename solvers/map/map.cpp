@@ -28,7 +28,7 @@ constexpr double kNoCellValue = std::numeric_limits<double>::quiet_NaN();
 /// The budget of a level after level 0, as a divisor of that of level 0.
 constexpr long kWarmShare = 5;
 /// How many cells are computed between looks at whether the map was interrupted.
-constexpr std::size_t kBatch = 4096;
+constexpr std::size_t kCellsAtOnce = 4096;
 /// A cell is improved if a search from scratch exceeds it by more than this share.
 constexpr double kImproved = 1e-3;
 
@@ -99,8 +99,9 @@ class MapMaker {
       if (!cells_.contains(place)) todo.push_back(&place);
     }
     all_ += static_cast<long>(todo.size());
-    for (std::size_t first = 0; first < todo.size() && !ends(); first += kBatch) {
-      compute_batch(std::span(todo).subspan(first, std::min(kBatch, todo.size() - first)), level);
+    for (std::size_t first = 0; first < todo.size() && !ends(); first += kCellsAtOnce) {
+      compute_batch(std::span(todo).subspan(first, std::min(kCellsAtOnce, todo.size() - first)),
+                    level);
     }
   }
 

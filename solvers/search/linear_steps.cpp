@@ -7,18 +7,19 @@
 namespace maxwrench {
 namespace {
 
-constexpr double kAccept = 0.05, kShrink = 0.25, kGrow = 0.7;  // shares of the predicted rise
+constexpr double kAcceptedRise = 0.05, kPoorRise = 0.25,
+                 kGoodRise = 0.7;        // shares of the predicted rise
 constexpr double kStepTolerance = 1e-6;  // of a linear program, whose answer is used only as a step
 
 }  // namespace
 
 bool TrustRegion::judge(double risen, double predicted, double size) {
-  if (!(risen >= kShrink * predicted)) {
+  if (!(risen >= kPoorRise * predicted)) {
     radius_ = 0.4 * size;
-  } else if (risen > kGrow * predicted && size > 0.9 * radius_) {
+  } else if (risen > kGoodRise * predicted && size > 0.9 * radius_) {
     radius_ *= 2;
   }
-  return risen >= kAccept * predicted;
+  return risen >= kAcceptedRise * predicted;
 }
 
 void StepRows::clear() {

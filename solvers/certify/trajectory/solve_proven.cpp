@@ -17,14 +17,14 @@ namespace {
 
 using SearchClock = std::chrono::steady_clock;
 
-/// Rounds with tighter limits, until a trajectory keeps the task's own.
-constexpr int kMostRounds = 12;
+/// Proofs that are tried, each after the first with tighter limits.
+constexpr int kMostProofs = 12;
 /// Evaluations of a local search with tighter limits.
 constexpr long kLocalEvaluations = 300;
 /// How often the share is bisected that tighter limits leave of a motion.
 constexpr int kHalvingsOfShare = 12;
-constexpr int kMostInstants = 16;      // in an interval between knots
-constexpr double kFirstSlower = 8e-3;  // share of the effort rates
+constexpr int kMostInstantsOfSearch = 16;  // in an interval between knots
+constexpr double kFirstSlower = 8e-3;      // share of the effort rates
 /// More instants are worth a round where a proof loses this share of the value.
 constexpr double kLossOfInstants = 5e-4;
 /// Extremes between knots are found on this many parts.
@@ -119,7 +119,7 @@ bool tighten_limits(const Problem& task, const Eigen::MatrixXd& knots, double& w
 /// adds instants, and makes the rates slower by a share. Returns the share.
 double tighten_rates(const Problem& task, double slower, Problem& tight) {
   int& instants = tight.motion->instants_per_interval;
-  instants = std::min(2 * instants, kMostInstants);
+  instants = std::min(2 * instants, kMostInstantsOfSearch);
   const double share = std::max(2 * slower, kFirstSlower);
   tight.robot.u_rate_max = (1 - share) * task.robot.u_rate_max;
   return share;
@@ -213,13 +213,13 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
         (status == Status::kProven && next.guaranteed > proof.guaranteed)) {
       proof = std::move(next);
     }
-    if (enough || round == kMostRounds) break;
+    if (enough || round == kMostProofs) break;
     if (options.interrupted && options.interrupted()) break;
     if (status == Status::kInvalidPosture) {
       if (!tighten_limits(task, knots, wider, tight)) break;
     } else if (status != Status::kProven) {
       slower = tighten_rates(task, slower, tight);
-    } else if (instants < kMostInstants) {
+    } else if (instants < kMostInstantsOfSearch) {
       instants *= 2;
     } else {
       break;
