@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "lib/math/fnv.h"
+#include "lib/robot/chain.h"
 #include "maxwrench/load.h"
 #include "maxwrench/task.h"
 #include "problems/loader/bad_input.h"
