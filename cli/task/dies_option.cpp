@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
+#include "lib/robot/chain.h"
 #include "maxwrench/robot.h"
 #include "solvers/solve/format.h"
 #include "solvers/solve/tank.h"

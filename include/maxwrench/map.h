@@ -24,9 +24,8 @@ inline constexpr long kMostCells = 1'000'000;
 /// * "azimuth", "elevation": the direction of c [rad], in the axes in which the task gives its
 ///   wrench: (cos el cos az, cos el sin az, sin el), a force or a torque as that of the task.
 /// * "wrench": the number of one of several wrenches of a task, from 1.
-/// * "thrust", "torque", or the name of an actuator: the factor [-], above 0, by which the limits
-/// of
-///   all thrusters, of the efforts of all joints, or of this actuator are multiplied.
+/// * "thrust", "torque", or the name of an actuator: a factor [-] above 0. It multiplies the limits
+///   of all thrusters, of the efforts of all joints, or of this actuator.
 struct MapAxis {
   std::string name;  ///< the name of the coordinate
   double low = 0,    ///< the first value

@@ -66,9 +66,10 @@ TrajectoryProof certify_trajectory(const Problem& task, const Eigen::MatrixXd& k
 
 /// Searches for the best trajectory that can be proven.
 ///
-/// The best trajectory of `solve` may exceed a limit between its instants. The search is then
-/// repeated with limits of theta_r and of its rates that are tighter by the excess. If more is
-/// proven of the default posture, held throughout, the proof is that of this trajectory.
+/// The best trajectory of `solve` may exceed a limit between its instants, or need efforts that
+/// change faster there than their rates allow. The search then continues from it with tighter
+/// limits and more instants. If more is proven of the default posture, held throughout, the proof
+/// is that of this trajectory.
 ///
 /// @return the proof; its answer counts the evaluations and the time of all searches
 TrajectoryProof solve_proven(const Problem& task, const Options& options = {},

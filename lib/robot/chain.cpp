@@ -142,6 +142,12 @@ int find_joint(const Robot& robot, const std::string& name) {
   return found == robot.joints.end() ? -1 : static_cast<int>(found - robot.joints.begin());
 }
 
+const std::string& actuator_name(const Robot& robot, Eigen::Index i) {
+  const auto at = static_cast<std::size_t>(i);
+  const std::size_t thrusters = robot.thrusters.size();
+  return at < thrusters ? robot.thrusters[at].name : robot.joints[at - thrusters].name;
+}
+
 Pose<double> pose_at_mount(const Robot& robot, int end_effector, const Eigen::VectorXd& q) {
   Kinematics<double> kinematics(robot);
   kinematics.set_joints(q);

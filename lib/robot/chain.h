@@ -47,6 +47,9 @@ void draw_joints(const Robot& robot, Random& random, Eigen::VectorXd& q);
 /// The joint of this name; -1 if there is none.
 int find_joint(const Robot& robot, const std::string& name);
 
+/// The name of actuator i: thrusters come first, then joints.
+const std::string& actuator_name(const Robot& robot, Eigen::Index i);
+
 /// The pose in the world of an end effector at the joint positions q, with the base at its mount.
 Pose<double> pose_at_mount(const Robot& robot, int end_effector, const Eigen::VectorXd& q);
 

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <vector>
 
+#include "lib/robot/chain.h"
 #include "lib/scenario/current_load.h"
 #include "maxwrench/capability.h"
 #include "maxwrench/problem.h"
@@ -35,10 +36,7 @@ std::string describe(const ScenarioList& list, const ScenarioChoice& choice) {
 ScenarioData scenario_data(const Problem& problem, const ScenarioChoice& choice) {
   const ScenarioList& list = problem.scenarios;
   const Robot& robot = problem.robot;
-  const auto name_of = [&robot](int actuator) {
-    const auto i = static_cast<std::size_t>(actuator), thrusters = robot.thrusters.size();
-    return i < thrusters ? robot.thrusters[i].name : robot.joints[i - thrusters].name;
-  };
+  const auto name_of = [&robot](int actuator) { return actuator_name(robot, actuator); };
   ScenarioData data;
   if (list.wrenches.size() > 1) {
     data.wrench = list.wrenches[static_cast<std::size_t>(choice.wrench)].name;

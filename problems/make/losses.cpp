@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "lib/robot/chain.h"
 #include "problems/make/bad_value.h"
 
 namespace maxwrench {
@@ -21,11 +22,6 @@ int thrusters_of(const Robot& robot) { return static_cast<int>(robot.thrusters.s
 const Joint* joint_of(const Robot& robot, int actuator) {
   const int joint = actuator - thrusters_of(robot);
   return joint < 0 ? nullptr : &robot.joints[static_cast<std::size_t>(joint)];
-}
-
-const std::string& name_of_actuator(const Robot& robot, int actuator) {
-  const Joint* joint = joint_of(robot, actuator);
-  return joint ? joint->name : robot.thrusters[static_cast<std::size_t>(actuator)].name;
 }
 
 /// Whether a gear connects the joint with another one, so that it cannot fail alone.
@@ -47,7 +43,7 @@ Lost actuators_named(const std::string& key, const std::vector<std::string>& nam
     const std::size_t before = found.size();
     for (int i = 0; i < all; ++i) {
       const bool named =
-          name == name_of_actuator(robot, i) || name == (i < thrusters ? "thrusters" : "joints");
+          name == actuator_name(robot, i) || name == (i < thrusters ? "thrusters" : "joints");
       if (named) found.push_back(i);
     }
     if (found.size() == before) found.clear();
@@ -56,7 +52,7 @@ Lost actuators_named(const std::string& key, const std::vector<std::string>& nam
   std::sort(found.begin(), found.end());
   if (found.empty() || std::adjacent_find(found.begin(), found.end()) != found.end()) {
     std::vector<std::string> known;
-    for (int i = 0; i < all; ++i) known.push_back(name_of_actuator(robot, i));
+    for (int i = 0; i < all; ++i) known.push_back(actuator_name(robot, i));
     throw BadValue(
         key, shown(names),
         fmt::format("'thrusters', 'joints' or some of {}, each once", fmt::join(known, ", ")));
@@ -65,7 +61,7 @@ Lost actuators_named(const std::string& key, const std::vector<std::string>& nam
     if (!is_geared(robot, i)) continue;
     throw BadValue(key, shown(names),
                    fmt::format("actuators without a gear: a gear connects '{}' with another joint",
-                               name_of_actuator(robot, i)));
+                               actuator_name(robot, i)));
   }
   return found;
 }
@@ -170,7 +166,7 @@ std::string words_of(const LostActuators& lost, const std::vector<int>& two_ends
   std::vector<std::string> words;
   const auto add = [&](const std::vector<int>& actuators, const char* how) {
     for (const int i : actuators) {
-      words.push_back(fmt::format("{} {}", name_of_actuator(robot, i), how));
+      words.push_back(fmt::format("{} {}", actuator_name(robot, i), how));
     }
   };
   add(lost.dead, "dead");
@@ -179,8 +175,7 @@ std::string words_of(const LostActuators& lost, const std::vector<int>& two_ends
   for (const int i : two_ends) {
     const auto found = lost.weaker.find(i);
     if (found == lost.weaker.end()) continue;
-    words.push_back(
-        fmt::format("{} {:g} % weaker", name_of_actuator(robot, i), 100 * found->second));
+    words.push_back(fmt::format("{} {:g} % weaker", actuator_name(robot, i), 100 * found->second));
   }
   return fmt::format("{}", fmt::join(words, " and "));
 }

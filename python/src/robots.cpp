@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
+#include "lib/robot/chain.h"
 #include "maxwrench/load.h"
 #include "problems/make/bad_value.h"
 #include "python/src/arrays.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "lib/math/decompositions.h"
+#include "lib/robot/chain.h"
 #include "lib/search/facet_program.h"
 #include "solvers/explain/parts.h"
 #include "solvers/lp/makers.h"

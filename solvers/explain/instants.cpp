@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/robot/chain.h"
 #include "solvers/explain/parts.h"
 #include "solvers/solve/active_limits.h"
 #include "solvers/solve/format.h"

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "lib/measure/closed_form.h"
+#include "lib/robot/chain.h"
 #include "solvers/explain/exits.h"
 #include "solvers/explain/parts.h"
 #include "solvers/lp/makers.h"

@@ -9,6 +9,7 @@
 
 #include "lib/math/decompositions.h"
 #include "lib/posture/free_pose.h"
+#include "lib/robot/chain.h"
 #include "maxwrench/map.h"
 #include "maxwrench/zonotope.h"
 #include "solvers/map/plan_check.h"

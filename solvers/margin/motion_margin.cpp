@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 
+#include "lib/robot/chain.h"
 #include "maxwrench/interruption.h"
 #include "maxwrench/margin.h"
 #include "maxwrench/problem.h"

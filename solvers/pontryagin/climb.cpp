@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/robot/chain.h"
 #include "maxwrench/problem.h"
 #include "solvers/solve/format.h"
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/robot/chain.h"
 #include "lib/scenario/scenario_list.h"
 #include "maxwrench/solve.h"
 #include "solvers/solve/format.h"

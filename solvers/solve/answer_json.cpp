@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/robot/chain.h"
 #include "maxwrench/sensitivity.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/version.h"

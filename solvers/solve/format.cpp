@@ -116,12 +116,6 @@ int instants_per_interval(const MotionTask& task) {
   return task.scheme == Scheme::kSpline ? task.instants_per_interval : 1;
 }
 
-const std::string& actuator_name(const Robot& robot, Eigen::Index i) {
-  const auto at = static_cast<std::size_t>(i);
-  const std::size_t thrusters = robot.thrusters.size();
-  return at < thrusters ? robot.thrusters[at].name : robot.joints[at - thrusters].name;
-}
-
 const char* actuator_unit(const Robot& robot, Eigen::Index i) {
   const auto at = static_cast<std::size_t>(i);
   const std::size_t thrusters = robot.thrusters.size();

@@ -66,8 +66,6 @@ std::string describe(const IkCounts& ik_solutions);
 /// The number of instants from knot to knot.
 int instants_per_interval(const MotionTask& task);
 
-/// The name of actuator i: thrusters come first, then joints.
-const std::string& actuator_name(const Robot& robot, Eigen::Index i);
 /// "N" or "N m": the unit of its effort.
 const char* actuator_unit(const Robot& robot, Eigen::Index i);
 

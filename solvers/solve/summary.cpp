@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "lib/robot/chain.h"
 #include "maxwrench/sensitivity.h"
 #include "maxwrench/solve.h"
 #include "solvers/solve/active_limits.h"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lib/robot/chain.h"
 #include "maxwrench/problem.h"
 #include "maxwrench/solve.h"
 #include "maxwrench/strategies.h"

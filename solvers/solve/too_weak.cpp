@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "lib/math/random.h"
+#include "lib/robot/chain.h"
 #include "maxwrench/measure.h"
 #include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "lib/robot/chain.h"
 #include "solvers/solve/format.h"
 #include "view/scene/parts.h"
 

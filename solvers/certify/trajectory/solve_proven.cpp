@@ -125,49 +125,47 @@ double tighten_rates(const Problem& task, double slower, Problem& tight) {
   return share;
 }
 
-/// A trajectory of what is nearest to `knots` on the way from a posture that is held, and has a
-/// value within the limits of `tight`. Empty if that posture has none.
-Eigen::MatrixXd nearest_with_value(const Problem& tight, const Eigen::MatrixXd& knots,
-                                   const Options& options) {
+/// The answer of the trajectory nearest to `knots`, on the way to them from a posture that is held,
+/// that has a value within the limits of `tight`. Without a value if this posture has none.
+Answer nearest_with_value(const Problem& tight, const Eigen::MatrixXd& knots,
+                          const Options& options) {
   const MotionTask& motion = *tight.motion;
   Eigen::RowVectorXd held = knots.row(0);
   if (!motion.impulse) held = knots.colwise().mean();
   if (motion.impulse && motion.theta_0.size() > 0) held = motion.theta_0.transpose();
   const Eigen::MatrixXd still = held.replicate(knots.rows(), 1);
-  const auto moving = [&](double share) -> Eigen::MatrixXd {
-    return still + share * (knots - still);
+  Answer nearest;
+  const auto has_value = [&](const Eigen::MatrixXd& moving) {
+    Answer answer = evaluate(tight, moving, options);
+    const bool has = answer.has_value() && answer.trajectory.collision.empty();
+    if (has) nearest = std::move(answer);
+    return has;
   };
-  const auto has_value = [&](double share) {
-    const Answer answer = evaluate(tight, moving(share), options);
-    return answer.has_value() && answer.trajectory.collision.empty();
-  };
-  if (has_value(1)) return knots;
-  if (!has_value(0)) return {};
-  double low = 0, high = 1;
+  if (has_value(knots) || !has_value(still)) return nearest;
+  double low = 0, high = 1;  // shares of the way
   for (int i = 0; i < kHalvingsOfShare; ++i) {
     const double middle = (low + high) / 2;
-    (has_value(middle) ? low : high) = middle;
+    (has_value(still + middle * (knots - still)) ? low : high) = middle;
   }
-  return moving(low);
+  return nearest;
 }
 
 /// Where sequential linear programming leads from there, as an answer of `tight`. Without a value
 /// if it has no start.
 Answer continue_search(const Problem& tight, const Eigen::MatrixXd& knots, const Options& options) {
   const auto before = SearchClock::now();
-  const Eigen::MatrixXd start = nearest_with_value(tight, knots, options);
-  if (start.size() == 0) return {};
+  Answer start = nearest_with_value(tight, knots, options);
+  if (!start.has_value()) return start;
   const auto objective = make_trajectory_objective(
       tight, options.wrench, trajectory_solvers().front().make, options.check_collision);
   SearchOptions search;
   search.interrupted = options.interrupted;
   SearchRun run(search);
-  SlpRun slp(*objective, {stacked(start), evaluate(tight, start, options).beta()}, run);
+  SlpRun slp(*objective, {stacked(start.trajectory.knots), start.beta()}, run);
   slp.optimise(kLocalEvaluations);
   // The best elastic value may be one that efforts reach almost.
-  const Eigen::MatrixXd end =
-      nearest_with_value(tight, unstacked(slp.best().theta_r, start.rows()), options);
-  Answer answer = evaluate(tight, end.size() > 0 ? end : start, options);
+  Answer answer = nearest_with_value(tight, unstacked(slp.best().theta_r, knots.rows()), options);
+  if (!answer.has_value() || start.beta() > answer.beta()) answer = std::move(start);
   answer.evaluations = slp.found().trace.evaluations();
   answer.wall_s = std::chrono::duration<double>(SearchClock::now() - before).count();
   answer.calls = {{"slp", "continued", 1, answer.evaluations}};

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 
+#include "lib/robot/chain.h"
 #include "maxwrench/load.h"
 #include "maxwrench/solve.h"
 #include "solvers/explain/parts.h"
