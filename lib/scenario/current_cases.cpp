@@ -1,6 +1,6 @@
 #include "lib/scenario/current_cases.h"
 
-#include <algorithm>
+#include <cmath>
 
 #include "maxwrench/posture.h"
 
@@ -9,8 +9,6 @@ namespace {
 
 /// The components of V and their products come before the axes of bodies.
 constexpr Eigen::Index kForms = 9;
-/// Cases of one product: larger ones would need memory from the heap.
-constexpr Eigen::Index kMostRows = 64;
 
 }  // namespace
 
@@ -21,6 +19,8 @@ CurrentCases::CurrentCases(const Robot& robot, const LoadGroup& cases)
       currents_(static_cast<Eigen::Index>(cases.size()), 3) {
   Eigen::Index row = 0;
   for (const LoadCase& each : cases) currents_.row(row++) = each.current.transpose().array();
+  if (cases.size() > 0) speed_ = std::sqrt(currents_.square().rowwise().sum().maxCoeff());
+  used_ = (currents_ != 0).colwise().any().transpose().cast<double>();
   const auto axes = static_cast<int>(robot.base_axes.size());
   for (int i = 0; i < axes; ++i) {
     const int axis = robot.base_axes[static_cast<std::size_t>(i)];
@@ -52,6 +52,9 @@ CurrentCases::CurrentCases(const Robot& robot, const LoadGroup& cases)
   const Eigen::Index terms = kForms + static_cast<Eigen::Index>(axes_.size());
   terms_.resize(currents_.rows(), terms);
   factors_.setZero(terms, robot.velocities());
+  along_.resize(3, static_cast<Eigen::Index>(axes_.size()));
+  middle_.setZero(terms);
+  width_.setZero(terms);
 }
 
 void CurrentCases::set_coordinates(const Posture& posture) {
@@ -101,8 +104,25 @@ void CurrentCases::set_forms() {
   }
 }
 
-void CurrentCases::set_terms(const Posture& posture) {
-  const Eigen::Matrix3d R = -posture.base.R;
+/// The power of g |e'V| e'V at a point of a link along each coordinate that moves the link.
+void CurrentCases::set_axes() {
+  for (std::size_t i = 0; i < axes_.size(); ++i) {
+    const DragAxis& axis = axes_[i];
+    const Pose<double>& frame = posture_->links[axis.link];
+    const Eigen::Vector3d e = frame.R * axis.along;
+    const Eigen::Vector3d moment = (frame.R * axis.at + frame.p).cross(e);
+    const auto column = static_cast<Eigen::Index>(i);
+    along_.col(column) = e;
+    for (const int moved : moving_[axis.link]) {
+      const Screw& screw = coordinates_[static_cast<std::size_t>(moved)];
+      factors_(kForms + column, moved) =
+          axis.damping * (e.dot(screw.linear) + moment.dot(screw.angular));
+    }
+  }
+}
+
+void CurrentCases::set_terms() {
+  const Eigen::Matrix3d R = -posture_->base.R;
   for (Eigen::Index i = 0; i < 3; ++i) {
     terms_.col(i).array() =
         currents_.col(0) * R(0, i) + currents_.col(1) * R(1, i) + currents_.col(2) * R(2, i);
@@ -114,31 +134,47 @@ void CurrentCases::set_terms(const Posture& posture) {
   terms_.col(6).array() = x * y;
   terms_.col(7).array() = x * z;
   terms_.col(8).array() = y * z;
-  Eigen::Index term = kForms;
-  for (const DragAxis& axis : axes_) {
-    const Pose<double>& frame = posture.links[axis.link];
-    const Eigen::Vector3d e = frame.R * axis.along;
-    const Eigen::Vector3d moment = (frame.R * axis.at + frame.p).cross(e);
-    for (const int i : moving_[axis.link]) {
-      const Screw& screw = coordinates_[static_cast<std::size_t>(i)];
-      factors_(term, i) = axis.damping * (e.dot(screw.linear) + moment.dot(screw.angular));
-    }
-    auto along = terms_.col(term++).array();
-    along = x * e[0] + y * e[1] + z * e[2];
-    along *= along.abs();
+  for (Eigen::Index i = 0; i < along_.cols(); ++i) {
+    auto term = terms_.col(kForms + i).array();
+    term = x * along_(0, i) + y * along_(1, i) + z * along_(2, i);
+    term *= term.abs();
   }
+  has_terms_ = true;
 }
 
-void CurrentCases::evaluate(const Posture& posture, Eigen::ArrayXXd& tau) {
+void CurrentCases::set(const Posture& posture) {
+  posture_ = &posture;
+  has_terms_ = false;
   set_coordinates(posture);
   set_composites(posture);
   set_forms();
-  set_terms(posture);
-  tau.resize(terms_.rows(), factors_.cols());
-  for (Eigen::Index row = 0; row < terms_.rows(); row += kMostRows) {
-    const Eigen::Index rows = std::min(kMostRows, terms_.rows() - row);
-    tau.matrix().middleRows(row, rows).noalias() = terms_.middleRows(row, rows) * factors_;
+  set_axes();
+}
+
+/// The largest |a'V| of all cases, or more, for a unit vector a of base axes.
+double CurrentCases::reach(const Eigen::Vector3d& along) const {
+  return speed_ * (posture_->base.R * along).cwiseProduct(used_).norm();
+}
+
+void CurrentCases::bound(Eigen::ArrayXd& centre, Eigen::ArrayXd& half) {
+  const Eigen::Vector3d V = speed_ * (used_.asDiagonal() * posture_->base.R).colwise().norm();
+  width_.head<3>() = V;
+  middle_.segment<3>(3) = 0.5 * V.cwiseAbs2();  // of squares: from zero on
+  width_.segment<3>(3) = middle_.segment<3>(3);
+  width_.segment<3>(6) << V[0] * V[1], V[0] * V[2], V[1] * V[2];
+  for (Eigen::Index i = 0; i < along_.cols(); ++i) {
+    const double most = reach(along_.col(i));
+    width_[kForms + i] = most * most;
   }
+  centre.matrix().noalias() = factors_.middleRows<3>(3).transpose() * middle_.segment<3>(3);
+  half.matrix().noalias() = factors_.cwiseAbs().transpose() * width_;
+}
+
+void CurrentCases::project(const Eigen::Ref<const Eigen::VectorXd>& normal,
+                           Eigen::ArrayXd& values) {
+  if (!has_terms_) set_terms();
+  weights_.noalias() = factors_ * normal;
+  values.matrix().noalias() = terms_ * weights_;
 }
 
 }  // namespace maxwrench

@@ -3,6 +3,9 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+
+#include "lib/scenario/current_load.h"
 
 namespace maxwrench {
 namespace {
@@ -54,6 +57,7 @@ ScenarioFacets::ScenarioFacets(const Problem& problem)
   for (const LoadGroup& group : list.loads) loads_.push_back(make_load(problem.robot, group));
   bounded_ = std::any_of(loads_.begin(), loads_.end(),
                          [](const Load& load) { return load.currents.has_value(); });
+  if (bounded_) abs_N_ = set_.N.cwiseAbs();
   exact_.resize(static_cast<std::size_t>(2 * pairs_));
   for (const ScenarioLimits& limits : list.limits) {
     limits_.emplace_back(2 * pairs_);
@@ -71,6 +75,13 @@ auto ScenarioFacets::make_load(const Robot& robot, const LoadGroup& cases) -> Lo
   Load load;
   load.cases = &cases;
   if (has_current(cases)) {
+    for (const LoadCase& each : cases) {
+      if (!each.loads.empty()) {
+        throw std::invalid_argument(
+            "scenarios: got a case with a current and masses, expected two "
+            "loads, one of currents and one of masses");
+      }
+    }
     load.currents.emplace(robot, cases);
     return load;
   }
@@ -106,18 +117,14 @@ void ScenarioFacets::combine(const Load& load, Eigen::Index which) {
   }
 }
 
-double ScenarioFacets::value_of(const Load& load, Eigen::Index which, Eigen::Index pair) const {
-  double value = 0;
+/// Writes n_j'tau of all cases, for one j, into `values`.
+void ScenarioFacets::fill_values(Load& load, Eigen::Index pair) {
   if (load.currents) {
-    for (Eigen::Index i = 0; i < load.forces.cols(); ++i) {
-      value += set_.N(i, pair) * load.forces(which, i);
-    }
-    return value;
+    load.currents->project(set_.N.col(pair), load.values);
+  } else {
+    load.values.matrix().noalias() =
+        load.coefficients.transpose() * load.projections.row(pair).transpose().matrix();
   }
-  for (Eigen::Index i = 0; i < load.coefficients.rows(); ++i) {
-    value += load.coefficients(i, which) * load.projections(pair, i);
-  }
-  return value;
 }
 
 void ScenarioFacets::set_margins(ScenarioForces& at) {
@@ -126,10 +133,10 @@ void ScenarioFacets::set_margins(ScenarioForces& at) {
   std::fill(exact_.begin(), exact_.end(), 0);
   for (Load& load : loads_) {
     if (load.currents) {
-      at.fill_loads(*load.cases, *load.currents, load.forces);
+      load.currents->set(at.posture());
       bound_cases(load);
-      margins_.head(pairs_) -= load.most;
-      margins_.tail(pairs_) += load.least;
+      margins_.head(pairs_) -= load.centre + load.half;
+      margins_.tail(pairs_) += load.centre - load.half;
       continue;
     }
     load.projections.resize(pairs_, static_cast<Eigen::Index>(load.basis.size()));
@@ -150,15 +157,14 @@ void ScenarioFacets::set_margins(ScenarioForces& at) {
   }
 }
 
-/// Bounds of n_j'tau by the ends of each coordinate.
+/// Bounds of n_j'tau by those of the coordinates.
 void ScenarioFacets::bound_cases(Load& load) {
-  load.most.setZero(pairs_);
-  load.least.setZero(pairs_);
-  for (Eigen::Index i = 0; i < load.forces.cols(); ++i) {
-    const double from = load.forces.col(i).minCoeff(), to = load.forces.col(i).maxCoeff();
-    const auto normals = set_.N.row(i).array().transpose();
-    load.most += (normals * from).max(normals * to);
-    load.least += (normals * from).min(normals * to);
+  load.currents->bound(centre_, half_);
+  load.centre.setZero(pairs_);
+  load.half.setZero(pairs_);
+  for (Eigen::Index i = 0; i < centre_.size(); ++i) {
+    load.centre += centre_[i] * set_.N.row(i).array().transpose();
+    load.half += half_[i] * abs_N_.row(i).array().transpose();
   }
 }
 
@@ -170,12 +176,9 @@ bool ScenarioFacets::refine(Eigen::Index row) {
   const double side = row < pairs_ ? 1 : -1;
   for (Load& load : loads_) {
     if (!load.currents) continue;
-    load.values.setZero(load.count());
-    for (Eigen::Index i = 0; i < load.forces.cols(); ++i) {
-      load.values += (side * set_.N(i, pair)) * load.forces.col(i);
-    }
-    const double worst = load.values.maxCoeff();
-    margins_[row] += (side > 0 ? load.most[pair] : -load.least[pair]) - worst;
+    fill_values(load, pair);
+    const double worst = side > 0 ? load.values.maxCoeff() : -load.values.minCoeff();
+    margins_[row] += side * load.centre[pair] + load.half[pair] - worst;
   }
   return true;
 }
@@ -228,7 +231,7 @@ bool ScenarioFacets::misses(const Eigen::ArrayXd& limits, const Wrench& wrench, 
 }
 
 /// Fills a choice with the scenario of a row: the cases of the loads that are worst for it.
-bool ScenarioFacets::choose(ScenarioForces& at, const End& end, ScenarioChoice& choice) const {
+bool ScenarioFacets::choose(ScenarioForces& at, const End& end, ScenarioChoice& choice) {
   if (end.wrench < 0) return false;
   const Eigen::Index pair = end.row % pairs_;
   const double side = end.row < pairs_ ? 1 : -1;
@@ -244,14 +247,12 @@ bool ScenarioFacets::choose(ScenarioForces& at, const End& end, ScenarioChoice& 
   }
   choice.cases.resize(loads_.size());
   for (std::size_t group = 0; group < loads_.size(); ++group) {
-    const Load& load = loads_[group];
-    double worst = -kInfinity;
-    for (Eigen::Index i = 0; i < load.count(); ++i) {
-      const double value = side * value_of(load, i, pair);
-      if (value <= worst) continue;
-      worst = value;
-      choice.cases[group] = static_cast<int>(i);
-    }
+    Load& load = loads_[group];
+    fill_values(load, pair);
+    load.values *= side;
+    Eigen::Index worst = 0;
+    load.values.maxCoeff(&worst);
+    choice.cases[group] = static_cast<int>(worst);
   }
   return true;
 }
@@ -328,11 +329,11 @@ bool ScenarioFacets::scan_rows(int wrench, int limits) {
   return true;
 }
 
-bool ScenarioFacets::high_scenario(ScenarioForces& at, ScenarioChoice& choice) const {
+bool ScenarioFacets::high_scenario(ScenarioForces& at, ScenarioChoice& choice) {
   return choose(at, high_end_, choice);
 }
 
-bool ScenarioFacets::low_scenario(ScenarioForces& at, ScenarioChoice& choice) const {
+bool ScenarioFacets::low_scenario(ScenarioForces& at, ScenarioChoice& choice) {
   return choose(at, low_end_, choice);
 }
 

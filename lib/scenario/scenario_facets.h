@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "lib/scenario/current_load.h"
+#include "lib/scenario/current_cases.h"
 #include "lib/scenario/scenario_forces.h"
 #include "maxwrench/capability.h"
 #include "maxwrench/problem.h"
@@ -46,9 +46,9 @@ class ScenarioFacets {
   void worst(ScenarioForces& at, int wrench, Eigen::Index row, ScenarioChoice& choice);
 
   /// The first scenario with the end `high`, after `scan`; false if there is none.
-  bool high_scenario(ScenarioForces& at, ScenarioChoice& choice) const;
+  bool high_scenario(ScenarioForces& at, ScenarioChoice& choice);
   /// Likewise of `low`; of the row that is missed, if one is.
-  bool low_scenario(ScenarioForces& at, ScenarioChoice& choice) const;
+  bool low_scenario(ScenarioForces& at, ScenarioChoice& choice);
   /// The pairs of facets of these two ends.
   int high_pair() const { return static_cast<int>(high_end_.row % pairs_); }
   int low_pair() const { return static_cast<int>(low_end_.row % pairs_); }
@@ -56,17 +56,17 @@ class ScenarioFacets {
   void fill_slope(Eigen::VectorXd& lambda) const;
 
  private:
-  /// The cases of a load as combinations of few loads, whose projections on the normals suffice.
-  /// Or, if one of them has a current, the generalised forces of each.
+  /// The cases of a load as combinations of few loads, whose projections on the normals suffice; or
+  /// the currents of all.
   struct Load {
     const LoadGroup* cases = nullptr;
     std::optional<CurrentCases> currents;  ///< if a case has a current
     std::vector<LoadCase> basis;           ///< the loads; with `currents` none
     Eigen::MatrixXd coefficients;          ///< of the basis, for each case (basis×cases)
     Eigen::ArrayXXd projections;           ///< N' of the generalised forces of the basis (f×basis)
-    Eigen::ArrayXXd forces;                ///< with `currents`: the generalised forces (cases×n)
-    Eigen::ArrayXd most, least;  ///< with `currents`: bounds of n_j'tau over the cases (f)
-    Eigen::ArrayXd values;       ///< with `currents`: n_j'tau of each case, for one j
+    /// With `currents`: n_j'tau lies within `half` of `centre` for all cases (f).
+    Eigen::ArrayXd centre, half;
+    Eigen::ArrayXd values;  ///< with `currents`: n_j'tau of each case, for one j
     Eigen::Index count() const { return static_cast<Eigen::Index>(cases->size()); }
   };
   /// A wrench with its rows: upper sides, then lower ones.
@@ -84,17 +84,17 @@ class ScenarioFacets {
   void set_margins(ScenarioForces& at);
   void set_slopes(ScenarioForces& at, int i);
   void set_wrench(ScenarioForces& at, int i);
-  /// n_j'tau of a case.
-  double value_of(const Load& load, Eigen::Index which, Eigen::Index pair) const;
   void combine(const Load& load, Eigen::Index which);
   void bound_cases(Load& load);
+  void fill_values(Load& load, Eigen::Index pair);
   bool refine(Eigen::Index row);
   bool misses(const Eigen::ArrayXd& limits, const Wrench& wrench, Eigen::Index& row);
   bool scan_rows(int wrench, int limits);
-  bool choose(ScenarioForces& at, const End& end, ScenarioChoice& choice) const;
+  bool choose(ScenarioForces& at, const End& end, ScenarioChoice& choice);
 
   const Problem& problem_;
   const Zonotope& set_;
+  Eigen::MatrixXd abs_N_;  ///< |N|, if a load has bounds
   Eigen::Index pairs_;
   std::vector<Load> loads_;
   std::vector<Eigen::ArrayXd> limits_;  ///< [b_max; -b_min] of each set of limits
@@ -105,8 +105,9 @@ class ScenarioFacets {
   End high_end_, low_end_;
   double high_inverse_ = 0;
   Eigen::VectorXd tau_;
-  Eigen::ArrayXXd ball_;  ///< N'J' of the ball's axes (f×d)
-  double size_ = 0;       ///< of the generalised forces of a wrench, with those of the ball
+  Eigen::ArrayXd centre_, half_;  ///< bounds of the generalised forces of a load (n)
+  Eigen::ArrayXXd ball_;          ///< N'J' of the ball's axes (f×d)
+  double size_ = 0;               ///< of the generalised forces of a wrench, with those of the ball
 };
 
 }  // namespace maxwrench

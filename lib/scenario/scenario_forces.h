@@ -2,11 +2,12 @@
 
 #include <stdexcept>
 
-#include "lib/scenario/current_cases.h"
 #include "maxwrench/scenario.h"
 #include "maxwrench/types.h"
 
 namespace maxwrench {
+
+struct Posture;
 
 /// The generalised forces of the wrenches and loads of a list of scenarios: at a posture, or
 /// averaged over points.
@@ -18,9 +19,8 @@ class ScenarioForces {
   virtual const Eigen::VectorXd& tau_d() const = 0;
   /// Adds the generalised forces of a case to tau (n).
   virtual void add_load(const LoadCase& load, Eigen::VectorXd& tau) = 0;
-  /// The generalised forces of each case (cases×n), with those of its current by `currents`. Only a
-  /// posture has them.
-  virtual void fill_loads(const LoadGroup&, CurrentCases&, Eigen::ArrayXXd&) {
+  /// The posture. An average over points has none, and currents need one.
+  virtual const Posture& posture() const {
     throw std::logic_error("currents: got an average over points, expected a posture");
   }
   /// tau = J'c (n).

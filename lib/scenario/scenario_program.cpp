@@ -15,7 +15,7 @@ ScenarioPosture::ScenarioPosture(const Problem& problem)
 
 void ScenarioPosture::set(const Posture& posture) {
   posture_ = &posture;
-  if (water_) water_->set(posture.base.R, posture.q);
+  in_water_ = false;
 }
 
 const Eigen::VectorXd& ScenarioPosture::tau_d() const { return posture_->tau_d; }
@@ -45,22 +45,10 @@ Vector6d ScenarioPosture::ball_axis(Eigen::Index i) const {
 void ScenarioPosture::add_load(const LoadCase& load, Eigen::VectorXd& tau) {
   add_static_loads(problem_.robot, *posture_, load.loads, 1, tau);
   if (load.current.isZero(0)) return;
+  if (!in_water_) water_->set(posture_->base.R, posture_->q);
+  in_water_ = true;
   water_->evaluate(load.current, added_);
   tau += added_;
-}
-
-void ScenarioPosture::fill_loads(const LoadGroup& cases, CurrentCases& currents,
-                                 Eigen::ArrayXXd& tau) {
-  currents.evaluate(*posture_, tau);
-  Eigen::Index row = 0;
-  for (const LoadCase& each : cases) {
-    if (!each.loads.empty()) {
-      added_.setZero();
-      add_static_loads(problem_.robot, *posture_, each.loads, 1, added_);
-      tau.row(row) += added_.transpose().array();
-    }
-    ++row;
-  }
 }
 
 ScenarioProgram::ScenarioProgram(const Problem& problem, Wrench wrench, int axes)

@@ -20,11 +20,10 @@ class ScenarioPosture final : public ScenarioForces {
 
   /// The posture must stay as it is until the next call.
   void set(const Posture& posture);
-  const Posture& posture() const { return *posture_; }
 
+  const Posture& posture() const override { return *posture_; }
   const Eigen::VectorXd& tau_d() const override;
   void add_load(const LoadCase& load, Eigen::VectorXd& tau) override;
-  void fill_loads(const LoadGroup& cases, CurrentCases& currents, Eigen::ArrayXXd& tau) override;
   void exert(const Vector6d& c, Eigen::VectorXd& tau) const override;
   Vector6d wrench(int i) const override;
   Vector6d ball_axis(Eigen::Index i) const override;
@@ -33,6 +32,7 @@ class ScenarioPosture final : public ScenarioForces {
   const Problem& problem_;
   const Posture* posture_ = nullptr;
   std::optional<CurrentLoad> water_;  ///< if a case has a current
+  bool in_water_ = false;             ///< whether `water_` is at the posture
   Eigen::VectorXd added_;
 };
 
