@@ -27,6 +27,7 @@ JointChoice read_joint_choice(const Block& block) {
   choice.upper = number_if_any(block, "upper");
   choice.lock = number_if_any(block, "lock");
   if (block.has("mimic")) {
+    if (choice.lock) block.throw_bad_value("lock", "no such key beside mimic");
     const Block mimic = block.table("mimic");
     mimic.allow_only({"joint", "ratio", "offset"});
     choice.mimic = {mimic.text("joint"), mimic.number("ratio", 1), mimic.number("offset", 0)};

@@ -189,6 +189,10 @@ TEST_F(UrdfTest, SlipsInTheTomlAreRejected) {
   EXPECT_THAT(error_of("joints.arm.upper = -2\n"),
               HasSubstr("joints.arm.upper: got -2, expected at least the lower limit -1"));
   EXPECT_EQ(error_of("joints.finger.mimic = { joint = 'arm', ratio = -1 }\n"), "accepted");
+  EXPECT_THAT(error_of("joints.finger = { lock = 0.25, mimic = { joint = 'arm' } }\n"),
+              HasSubstr("robot.toml: joints.finger.lock: got 0.25, expected no such key beside "
+                        "mimic"));
+  EXPECT_EQ(error_of("joints.finger.lock = 0.25\n"), "accepted");
 }
 
 TEST_F(UrdfTest, GearPassesItsLoadToTheLeader) {
