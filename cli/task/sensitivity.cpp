@@ -12,6 +12,7 @@
 #include "cli/task/problem_options.h"
 #include "drawing/bars.h"
 #include "maxwrench/task.h"
+#include "problems/make/bad_value.h"
 #include "problems/make/losses.h"
 
 namespace maxwrench {
@@ -41,13 +42,23 @@ std::string figure_of(const Problem& problem, const Sensitivity& result) {
                    "at the given posture");
 }
 
+/// The limits of each loss. Bad values are named by the options that set them.
+std::vector<ScenarioLimits> limits_of(const SensitivityOptions& options, const Robot& robot) {
+  LossSpec loss = options.loss;
+  loss.joints_lock = options.joints == "locked";
+  try {
+    return limits_of_each_loss(loss, robot);
+  } catch (const BadValue& bad) {
+    const std::string name = bad.key().substr(bad.key().find('.') + 1);
+    throw std::invalid_argument(bad_value_line("--" + name, bad.got(), bad.expected()));
+  }
+}
+
 int print_sensitivity(const SensitivityOptions& options) {
   require_apart(options.source.inputs(options.choice.problem), {{"--figure", options.figure}});
   const Problem problem = options.source.load(options.choice.problem);
   require_static(problem, "sensitivity");
-  LossSpec loss = options.loss;
-  loss.joints_lock = options.joints == "locked";
-  const std::vector<ScenarioLimits> limits = limits_of_each_loss(loss, problem.robot);
+  const std::vector<ScenarioLimits> limits = limits_of(options, problem.robot);
   CtrlC ctrl_c;
   Options how = options.read_options();
   how.interrupted = ctrl_c.asked();

@@ -274,10 +274,10 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"eval examples/tasks/carry_steel.toml --wrench any",
                 "wrench: got any, expected pure"},
         Refusal{"eval uvms/valve_trajectory --scenarios", "--scenarios: got uvms/valve_trajectory"},
-        Refusal{"sensitivity uvms/valve --joints-are locked --friction 1", "loss.friction: got 1"},
-        Refusal{"sensitivity uvms/valve --brake 1", "loss.brake: got 1"},
+        Refusal{"sensitivity uvms/valve --joints-are locked --friction 1", "--friction: got 1"},
+        Refusal{"sensitivity uvms/valve --brake 1", "--brake: got 1"},
         Refusal{"sensitivity uvms/valve_trajectory", "sensitivity"},
-        Refusal{"sensitivity uvms/valve --actuators wing", "loss.actuators: got"}));
+        Refusal{"sensitivity uvms/valve --actuators wing", "--actuators: got"}));
 
 }  // namespace
 }  // namespace maxwrench
