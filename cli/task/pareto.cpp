@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <stdexcept>
 
 #include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
@@ -37,6 +38,10 @@ int print_front(const ParetoOptions& options) {
   }
   for (const Goal& goal : goals) require_static(goal.task, "pareto");
   FrontPlan plan = options.plan;
+  if (plan.points == 0) {
+    throw std::invalid_argument(
+        "--points: got 0, expected 2 or more, or --compromise in its place");
+  }
   if (options.compromise || goals.size() > 2) plan.points = 0;
   CtrlC ctrl_c;
   how.interrupted = ctrl_c.asked();

@@ -47,6 +47,8 @@ INSTANTIATE_TEST_SUITE_P(
                              "--against: got planar/force, expected a static task with the same"},
                     BadFront{"uvms/valve --against uvms/nothing", "uvms/nothing"},
                     BadFront{"uvms/valve --against uvms/lift --points 1", "--points: got 1"},
+                    BadFront{"uvms/valve --against uvms/lift --points 0",
+                             "--points: got 0, expected 2 or more"},
                     BadFront{"uvms/valve --against uvms/valve_trajectory", "static task"},
                     BadFront{"uvms/valve --against uvms/lift --against-wrench some", "some"},
                     BadFront{"uvms/valve --against uvms/lift --search slp", "search: got 'slp'"}));
