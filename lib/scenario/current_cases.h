@@ -10,65 +10,76 @@ namespace maxwrench {
 
 struct Posture;
 
-/// What each of many currents adds to tau_d of a robot at rest.
+/// What each of many currents adds to tau_d of a robot at rest, along normals n: n'tau.
 ///
-/// The load is that of `CurrentLoad`. For the water's velocity V in base axes it is, coordinate by
-/// coordinate, the sum of a linear form of V (linear drag), a quadratic form of V (the moment
-/// V x (A V) of the added mass A) and of terms g |e'V| e'V, one for each axis e of each body
-/// (quadratic drag). So tau = F't with factors F of the posture and terms t of the current, and
-/// bounds of t give bounds of tau without a look at any case.
+/// tau is that of `CurrentLoad`. n'tau is the power of the water's forces if the robot moves with
+/// the velocities n. With the water's velocity V in world axes it is a'V + V'M V + sum_i w_i
+/// |e_i'V| e_i'V: linear drag, the moment V x (A V) of the added mass A, and quadratic drag along
+/// each axis e_i of each body. Opposite currents differ in the sign of the first and the last part.
 class CurrentCases {
  public:
   /// Keeps the currents of the cases; their other loads do not count.
   CurrentCases(const Robot& robot, const LoadGroup& cases);
   CurrentCases(const Robot&& robot, const LoadGroup& cases) = delete;
 
+  /// Bounds of |tau| [N, N m] over all cases and all postures within the limits of prismatic joints
+  /// (n), which may be infinite.
+  const Eigen::VectorXd& most() const { return most_; }
+
   /// Moves to a posture, which must outlive the calls below. They allocate nothing after the first.
   void set(const Posture& posture);
-  /// Writes an interval of each coordinate [N, N m], centre and half its width (n), that holds the
-  /// loads of all cases. It may be wider than theirs.
-  void bound(Eigen::ArrayXd& centre, Eigen::ArrayXd& half);
-  /// Writes normal'tau of each case. The first call at a posture computes the terms of all cases.
-  void project(const Eigen::Ref<const Eigen::VectorXd>& normal, Eigen::ArrayXd& values);
+  /// Chooses n and computes a, M and w.
+  void aim(const Eigen::Ref<const Eigen::VectorXd>& n);
+  /// A bound of |n'tau| over all cases, from the largest speed.
+  double bound() const;
+  /// Writes n'tau of each case.
+  void fill(Eigen::ArrayXd& values);
 
  private:
-  using Screw = maxwrench::Screw<double>;
   /// An axis of a body that has quadratic drag along it.
   struct DragAxis {
     std::size_t link;
     Eigen::Vector3d at, along;  ///< in link axes
     double damping;
+    /// e, and the point of the body x e, in world axes.
+    Eigen::Vector3d e = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
   };
-  /// What a link and all that it carries contribute, in base axes.
-  struct Composite {
-    Eigen::Matrix3d added_mass;           ///< A
-    Eigen::Matrix<double, 6, 3> damping;  ///< V to the wrench of linear drag at the base's origin
+  /// What the water does to the bodies of a link.
+  struct Water {
+    std::size_t link = 0;
+    Eigen::Matrix3d added_mass = Eigen::Matrix3d::Zero();  ///< A, in link axes
+    /// V to the wrench of linear drag, at the link's origin.
+    Eigen::Matrix<double, 6, 3> damping = Eigen::Matrix<double, 6, 3>::Zero();
+    bool has_damping = false;
+    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  ///< in world axes
   };
 
-  void set_coordinates(const Posture& posture);
-  void set_composites(const Posture& posture);
-  void set_forms();
-  void set_axes();
-  void set_terms();
-  double reach(const Eigen::Vector3d& along) const;
+  void add_link(std::size_t link);
+  void pair_opposites(const LoadGroup& cases);
+  void set_most();
+  double farthest(std::size_t first, std::size_t link) const;
+  void place();
 
   const Robot& robot_;
-  std::vector<std::vector<int>> moving_;  ///< of each link: the coordinates that move it
-  std::vector<Composite> own_;            ///< of each link alone, in link axes at its origin
+  std::vector<Water> water_;
   std::vector<DragAxis> axes_;
-  std::vector<Screw> coordinates_;  ///< the twist per unit rate of each
-  std::vector<Composite> carried_;
-  Eigen::ArrayX3d currents_;  ///< in the world
-  double speed_ = 0;          ///< the largest of the currents
+  double speed_ = 0;      ///< the largest of the currents
   Eigen::Vector3d used_;  ///< 1 for each axis of the world along which some current flows, else 0
+  Eigen::VectorXd most_;
+  /// Of each pair of opposite currents and each current alone: V, the products xx, yy, zz, xy, xz
+  /// and yz of its components, and the cases of V and -V (-1: none).
+  Eigen::ArrayX3d V_;
+  Eigen::MatrixXd products_;
+  std::vector<int> forward_, backward_;
+
   const Posture* posture_ = nullptr;
-  Eigen::Matrix3Xd along_;  ///< each axis e, in base axes
-  /// The components of V, their products xx, yy, zz, xy, xz, yz and |e'V| e'V of each axis, for
-  /// each case.
-  Eigen::MatrixXd terms_;
-  bool has_terms_ = false;                    ///< whether `terms_` are those of the posture
-  Eigen::MatrixXd factors_;                   ///< F: of the terms, for each coordinate
-  Eigen::VectorXd middle_, width_, weights_;  ///< of each term: its bound, and its weight in a row
+  bool placed_ = false;                        ///< whether what follows is of the posture
+  std::vector<Pose<double>> frames_;           ///< of the links, in world axes about the base
+  std::vector<Screw<double>> joints_, links_;  ///< twist per unit rate of a joint; of links by n
+  Eigen::Vector3d a_;
+  Eigen::Matrix<double, 6, 1> m_;  ///< the factors of the products in V'M V
+  Eigen::VectorXd w_;
+  Eigen::ArrayXd odd_, even_, along_;
 };
 
 }  // namespace maxwrench

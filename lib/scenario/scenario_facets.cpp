@@ -55,10 +55,9 @@ ScenarioFacets::ScenarioFacets(const Problem& problem)
       tau_(set_.dimension()) {
   const ScenarioList& list = problem.scenarios;
   for (const LoadGroup& group : list.loads) loads_.push_back(make_load(problem.robot, group));
-  bounded_ = std::any_of(loads_.begin(), loads_.end(),
-                         [](const Load& load) { return load.currents.has_value(); });
-  if (bounded_) abs_N_ = set_.N.cwiseAbs();
-  exact_.resize(static_cast<std::size_t>(2 * pairs_));
+  const bool currents = std::any_of(loads_.begin(), loads_.end(),
+                                    [](const Load& load) { return load.currents.has_value(); });
+  if (currents) of_.resize(static_cast<std::size_t>(2 * pairs_));
   for (const ScenarioLimits& limits : list.limits) {
     limits_.emplace_back(2 * pairs_);
     limits_.back() << limits.actuation.b_max.array(), -limits.actuation.b_min.array();
@@ -83,6 +82,11 @@ auto ScenarioFacets::make_load(const Robot& robot, const LoadGroup& cases) -> Lo
       }
     }
     load.currents.emplace(robot, cases);
+    const Eigen::VectorXd& most = load.currents->most();
+    load.anywhere = most.allFinite();
+    load.bound.setZero(robot.actuation.facet_pairs());
+    load.worst.resize(static_cast<std::size_t>(2 * load.bound.size()));
+    if (load.anywhere) load.bound = (robot.actuation.N.cwiseAbs().transpose() * most).array();
     return load;
   }
   int links = 0;
@@ -117,10 +121,20 @@ void ScenarioFacets::combine(const Load& load, Eigen::Index which) {
   }
 }
 
+/// Gives all currents the normal of a pair.
+void ScenarioFacets::aim(Eigen::Index pair) {
+  if (aimed_ == pair) return;
+  aimed_ = pair;
+  for (Load& load : loads_) {
+    if (load.currents) load.currents->aim(set_.N.col(pair));
+  }
+}
+
 /// Writes n_j'tau of all cases, for one j, into `values`.
 void ScenarioFacets::fill_values(Load& load, Eigen::Index pair) {
   if (load.currents) {
-    load.currents->project(set_.N.col(pair), load.values);
+    aim(pair);
+    load.currents->fill(load.values);
   } else {
     load.values.matrix().noalias() =
         load.coefficients.transpose() * load.projections.row(pair).transpose().matrix();
@@ -130,15 +144,8 @@ void ScenarioFacets::fill_values(Load& load, Eigen::Index pair) {
 void ScenarioFacets::set_margins(ScenarioForces& at) {
   project(at.tau_d(), nominal_);
   margins_ << -nominal_, nominal_;
-  std::fill(exact_.begin(), exact_.end(), 0);
   for (Load& load : loads_) {
-    if (load.currents) {
-      load.currents->set(at.posture());
-      bound_cases(load);
-      margins_.head(pairs_) -= load.centre + load.half;
-      margins_.tail(pairs_) += load.centre - load.half;
-      continue;
-    }
+    if (load.currents) continue;
     load.projections.resize(pairs_, static_cast<Eigen::Index>(load.basis.size()));
     for (std::size_t i = 0; i < load.basis.size(); ++i) {
       tau_.setZero();
@@ -155,30 +162,46 @@ void ScenarioFacets::set_margins(ScenarioForces& at) {
     margins_.head(pairs_) -= most_;
     margins_.tail(pairs_) += least_;
   }
+  if (!of_.empty()) set_bounds(at);
 }
 
-/// Bounds of n_j'tau by those of the coordinates.
-void ScenarioFacets::bound_cases(Load& load) {
-  load.currents->bound(centre_, half_);
-  load.centre.setZero(pairs_);
-  load.half.setZero(pairs_);
-  for (Eigen::Index i = 0; i < centre_.size(); ++i) {
-    load.centre += centre_[i] * set_.N.row(i).array().transpose();
-    load.half += half_[i] * abs_N_.row(i).array().transpose();
+/// Subtracts the bounds of all currents from the margins.
+void ScenarioFacets::set_bounds(ScenarioForces& at) {
+  still_ = margins_;
+  std::fill(of_.begin(), of_.end(), Margin::kBounded);
+  aimed_ = -1;
+  for (Load& load : loads_) {
+    if (load.currents) load.currents->set(at.posture());
+  }
+  for (Load& load : loads_) {
+    if (!load.currents) continue;
+    for (Eigen::Index pair = 0; !load.anywhere && pair < pairs_; ++pair) {
+      aim(pair);
+      load.bound[pair] = load.currents->bound();
+    }
+    margins_.head(pairs_) -= load.bound;
+    margins_.tail(pairs_) -= load.bound;
   }
 }
 
-/// Makes the margin of a row that of the worst cases; false if it is that already.
+/// Brings the margin of a row nearer to that of the worst cases; false if it is that already.
 bool ScenarioFacets::refine(Eigen::Index row) {
-  if (!bounded_ || exact_[static_cast<std::size_t>(row)]) return false;
-  exact_[static_cast<std::size_t>(row)] = 1;
+  if (of_.empty()) return false;
+  Margin& of = of_[static_cast<std::size_t>(row)];
+  if (of == Margin::kOfCases) return false;
+  of = of == Margin::kBounded ? Margin::kBoundedClosely : Margin::kOfCases;
   const Eigen::Index pair = row % pairs_;
-  const double side = row < pairs_ ? 1 : -1;
+  aim(pair);
+  margins_[row] = still_[row];
   for (Load& load : loads_) {
     if (!load.currents) continue;
-    fill_values(load, pair);
-    const double worst = side > 0 ? load.values.maxCoeff() : -load.values.minCoeff();
-    margins_[row] += side * load.centre[pair] + load.half[pair] - worst;
+    if (of == Margin::kBoundedClosely) {
+      margins_[row] -= load.currents->bound();
+    } else {
+      fill_values(load, pair);
+      Eigen::Index& worst = load.worst[static_cast<std::size_t>(row)];
+      margins_[row] -= row < pairs_ ? load.values.maxCoeff(&worst) : -load.values.minCoeff(&worst);
+    }
   }
   return true;
 }
@@ -223,7 +246,9 @@ bool ScenarioFacets::misses(const Eigen::ArrayXd& limits, const Wrench& wrench, 
     return limits[each] + margins_[each] >= -slack;
   };
   for (const int each : wrench.parallel) {
-    if (holds(each) || (refine(each) && holds(each))) continue;
+    bool held = holds(each);
+    while (!held && refine(each)) held = holds(each);
+    if (held) continue;
     row = each;
     return true;
   }
@@ -248,10 +273,15 @@ bool ScenarioFacets::choose(ScenarioForces& at, const End& end, ScenarioChoice& 
   choice.cases.resize(loads_.size());
   for (std::size_t group = 0; group < loads_.size(); ++group) {
     Load& load = loads_[group];
-    fill_values(load, pair);
-    load.values *= side;
+    const auto row = static_cast<std::size_t>(end.row);
     Eigen::Index worst = 0;
-    load.values.maxCoeff(&worst);
+    if (load.currents && of_[row] == Margin::kOfCases) {
+      worst = load.worst[row];
+    } else {
+      fill_values(load, pair);
+      load.values *= side;
+      load.values.maxCoeff(&worst);
+    }
     choice.cases[group] = static_cast<int>(worst);
   }
   return true;
@@ -259,7 +289,10 @@ bool ScenarioFacets::choose(ScenarioForces& at, const End& end, ScenarioChoice& 
 
 void ScenarioFacets::fill_rows(ScenarioForces& at, Eigen::VectorXd& load, Eigen::VectorXd& slope) {
   set_margins(at);
-  for (Eigen::Index row = 0; row < 2 * pairs_; ++row) refine(row);
+  for (Eigen::Index pair = 0; pair < pairs_; ++pair) {
+    while (refine(pair) || refine(pair + pairs_)) {
+    }
+  }
   const auto wrenches = static_cast<Eigen::Index>(wrenches_.size());
   load = -margins_.matrix().replicate(wrenches, 1);
   slope.resize(load.size());
@@ -284,49 +317,66 @@ void ScenarioFacets::scan(ScenarioForces& at) {
   for (int i = 0; i < static_cast<int>(wrenches_.size()); ++i) {
     set_wrench(at, i);
     for (int l = 0; l < static_cast<int>(limits_.size()); ++l) {
-      if (scan_rows(i, l)) continue;
-      missed = true;
-      return;
+      if (!scan_high(i, l)) {
+        missed = true;
+        return;
+      }
+      if (of_.empty()) scan_low(i, l);  // while its rows are at hand
     }
+  }
+  if (of_.empty()) return;
+  for (int i = 0; i < static_cast<int>(wrenches_.size()); ++i) {
+    for (int l = 0; l < static_cast<int>(limits_.size()); ++l) scan_low(i, l);
   }
 }
 
-/// Moves both ends to those of one wrench with one set of limits; false if a row is missed.
-bool ScenarioFacets::scan_rows(int wrench, int limits) {
+Eigen::Index ScenarioFacets::row_of(double end) const {
+  Eigen::Index row = 0;
+  while (part_[row] != end) ++row;
+  return row;
+}
+
+/// Refines a row and its end; false if they are exact already.
+bool ScenarioFacets::refine_end(const Wrench& rows, const Eigen::ArrayXd& limits,
+                                Eigen::Index row) {
+  if (!refine(row)) return false;
+  part_[row] = (limits[row] + margins_[row]) * rows.inverse[row];
+  return true;
+}
+
+/// Lowers `high` to that of one wrench with one set of limits; false if a row is missed.
+bool ScenarioFacets::scan_high(int wrench, int limits) {
   const Wrench& rows = wrenches_[static_cast<std::size_t>(wrench)];
   const Eigen::ArrayXd& bounds = limits_[static_cast<std::size_t>(limits)];
-  const auto find = [this](double end) {
-    Eigen::Index row = 0;
-    while (part_[row] != end) ++row;
-    return row;
-  };
   Eigen::Index missed_row = 0;
   if (misses(bounds, rows, missed_row)) {
     low_end_ = {wrench, limits, missed_row};
     return false;
   }
   row_ = (bounds + margins_) * rows.inverse;
-  const auto refined = [&](Eigen::Index row) {
-    if (!refine(row)) return false;
-    part_[row] = (bounds[row] + margins_[row]) * rows.inverse[row];
-    return true;
-  };
   part_ = (rows.inverse > 0).select(row_, kInfinity);
   for (double end = part_.minCoeff(); end < high; end = part_.minCoeff()) {
-    const Eigen::Index row = find(end);
-    if (refined(row)) continue;
+    const Eigen::Index row = row_of(end);
+    if (refine_end(rows, bounds, row)) continue;
     high = end;
     high_end_ = {wrench, limits, row};
     high_inverse_ = rows.inverse[row];
   }
-  part_ = (rows.inverse < 0).select((bounds + margins_) * rows.inverse, -kInfinity);
+  return true;
+}
+
+/// Raises `low` likewise. A bound that is not above `high` is enough.
+void ScenarioFacets::scan_low(int wrench, int limits) {
+  const Wrench& rows = wrenches_[static_cast<std::size_t>(wrench)];
+  const Eigen::ArrayXd& bounds = limits_[static_cast<std::size_t>(limits)];
+  if (!of_.empty()) row_ = (bounds + margins_) * rows.inverse;  // else it is that of `scan_high`
+  part_ = (rows.inverse < 0).select(row_, -kInfinity);
   for (double end = part_.maxCoeff(); end > low; end = part_.maxCoeff()) {
-    const Eigen::Index row = find(end);
-    if (refined(row)) continue;
+    const Eigen::Index row = row_of(end);
+    if (end > high && refine_end(rows, bounds, row)) continue;
     low = end;
     low_end_ = {wrench, limits, row};
   }
-  return true;
 }
 
 bool ScenarioFacets::high_scenario(ScenarioForces& at, ScenarioChoice& choice) {

@@ -19,9 +19,9 @@ namespace maxwrench {
 ///
 /// Each side of each pair is a row "slope beta <= margin". A load changes margins only, and loads
 /// are independent, so each row takes the worst case of each load: combinations of cases need not
-/// be listed. Of a load with many currents, each row first takes a bound of the worst case; the
-/// case itself is found only for rows that may be the end. A ball of radius r adds r |E'J n_j| to
-/// the slope of both rows of a pair, which is its support function.
+/// be listed. Of a load with many currents, each row first takes a bound of the worst case, then a
+/// closer one; the case itself is found only for rows that may be the end. A ball of radius r adds
+/// r |E'J n_j| to the slope of both rows of a pair, which is its support function.
 class ScenarioFacets {
  public:
   explicit ScenarioFacets(const Problem& problem);
@@ -33,7 +33,8 @@ class ScenarioFacets {
   /// Computes both ends. Allocates nothing after the first call.
   void scan(ScenarioForces& at);
 
-  double high = 0, low = 0;  ///< min hi_s and max lo_s
+  /// min hi_s and max lo_s. With currents, a `low` that is not above `high` is only a bound of it.
+  double high = 0, low = 0;
   /// Whether a row holds for no factor. Its scenario, `low_scenario`, is then infeasible by itself,
   /// and both ends are meaningless.
   bool missed = false;
@@ -64,9 +65,10 @@ class ScenarioFacets {
     std::vector<LoadCase> basis;           ///< the loads; with `currents` none
     Eigen::MatrixXd coefficients;          ///< of the basis, for each case (basis×cases)
     Eigen::ArrayXXd projections;           ///< N' of the generalised forces of the basis (f×basis)
-    /// With `currents`: n_j'tau lies within `half` of `centre` for all cases (f).
-    Eigen::ArrayXd centre, half;
-    Eigen::ArrayXd values;  ///< with `currents`: n_j'tau of each case, for one j
+    Eigen::ArrayXd bound;                  ///< with `currents`: of |n_j'tau| over all cases (f)
+    bool anywhere = false;                 ///< whether `bound` holds at all postures
+    Eigen::ArrayXd values;                 ///< n_j'tau of each case, for one j
+    std::vector<Eigen::Index> worst;  ///< with `currents`: of each row, its worst case, if known
     Eigen::Index count() const { return static_cast<Eigen::Index>(cases->size()); }
   };
   /// A wrench with its rows: upper sides, then lower ones.
@@ -85,29 +87,34 @@ class ScenarioFacets {
   void set_slopes(ScenarioForces& at, int i);
   void set_wrench(ScenarioForces& at, int i);
   void combine(const Load& load, Eigen::Index which);
-  void bound_cases(Load& load);
+  void aim(Eigen::Index pair);
   void fill_values(Load& load, Eigen::Index pair);
+  void set_bounds(ScenarioForces& at);
   bool refine(Eigen::Index row);
   bool misses(const Eigen::ArrayXd& limits, const Wrench& wrench, Eigen::Index& row);
-  bool scan_rows(int wrench, int limits);
+  bool scan_high(int wrench, int limits);
+  void scan_low(int wrench, int limits);
+  bool refine_end(const Wrench& rows, const Eigen::ArrayXd& limits, Eigen::Index row);
+  Eigen::Index row_of(double end) const;
   bool choose(ScenarioForces& at, const End& end, ScenarioChoice& choice);
 
   const Problem& problem_;
   const Zonotope& set_;
-  Eigen::MatrixXd abs_N_;  ///< |N|, if a load has bounds
   Eigen::Index pairs_;
   std::vector<Load> loads_;
   std::vector<Eigen::ArrayXd> limits_;  ///< [b_max; -b_min] of each set of limits
   std::vector<Wrench> wrenches_;
   Eigen::ArrayXd nominal_, most_, least_, value_, margins_, slope_, widening_, row_, part_;
-  bool bounded_ = false;     ///< whether a load has bounds
-  std::vector<char> exact_;  ///< of each row: whether its margin is of the worst cases
+  /// What the margin of a row is of: a bound, a closer one, or the worst cases.
+  enum class Margin : char { kBounded, kBoundedClosely, kOfCases };
+  std::vector<Margin> of_;  ///< of each row, if a load has currents
+  Eigen::ArrayXd still_;    ///< the margins without currents
+  Eigen::Index aimed_ = 0;  ///< the pair of the currents' normal; -1: none
   End high_end_, low_end_;
   double high_inverse_ = 0;
   Eigen::VectorXd tau_;
-  Eigen::ArrayXd centre_, half_;  ///< bounds of the generalised forces of a load (n)
-  Eigen::ArrayXXd ball_;          ///< N'J' of the ball's axes (f×d)
-  double size_ = 0;               ///< of the generalised forces of a wrench, with those of the ball
+  Eigen::ArrayXXd ball_;  ///< N'J' of the ball's axes (f×d)
+  double size_ = 0;       ///< of the generalised forces of a wrench, with those of the ball
 };
 
 }  // namespace maxwrench
