@@ -56,14 +56,21 @@ void CurrentCases::pair_opposites(const LoadGroup& cases) {
   std::size_t first = 0, half = 1;
   while (first < count && cases[first].current.isZero(0)) ++first;
   while (first + half < count && !opposes(first, first + half)) ++half;
+  std::vector<int> alone;
   std::vector<bool> taken(count);
   for (std::size_t i = 0; i < count; ++i) {
     if (taken[i]) continue;
-    const bool paired = opposes(i, i + half);
-    if (paired) taken[i + half] = true;
-    forward_.push_back(static_cast<int>(i));
-    backward_.push_back(paired ? static_cast<int>(i + half) : -1);
+    if (opposes(i, i + half)) {
+      taken[i + half] = true;
+      forward_.push_back(static_cast<int>(i));
+      backward_.push_back(static_cast<int>(i + half));
+    } else {
+      alone.push_back(static_cast<int>(i));
+    }
   }
+  pairs_ = static_cast<Eigen::Index>(forward_.size());
+  forward_.insert(forward_.end(), alone.begin(), alone.end());
+  backward_.resize(forward_.size(), -1);
   V_.resize(static_cast<Eigen::Index>(forward_.size()), 3);
   products_.resize(V_.rows(), 6);
   for (Eigen::Index i = 0; i < V_.rows(); ++i) {
@@ -147,7 +154,7 @@ void CurrentCases::place() {
   placed_ = true;
 }
 
-void CurrentCases::aim(const Eigen::Ref<const Eigen::VectorXd>& n) {
+void CurrentCases::aim(const Eigen::VectorXd& n) {
   if (!placed_) place();
   const std::size_t axes = robot_.base_axes.size();
   Screw<double>& base = links_.front();
@@ -200,7 +207,7 @@ double CurrentCases::bound() const {
   return speed_ * (a_.cwiseProduct(used_).norm() + speed_ * by_square);
 }
 
-void CurrentCases::fill(Eigen::ArrayXd& values) {
+double CurrentCases::worst(double side, int& which) {
   even_.matrix().noalias() = products_ * m_;
   odd_ = V_.col(0) * a_[0] + V_.col(1) * a_[1] + V_.col(2) * a_[2];
   for (std::size_t i = 0; i < axes_.size(); ++i) {
@@ -212,13 +219,15 @@ void CurrentCases::fill(Eigen::ArrayXd& values) {
     }
     odd_ += w_[static_cast<Eigen::Index>(i)] * along_ * along_.abs();
   }
-  values.resize(static_cast<Eigen::Index>(forward_.size() + backward_.size()) -
-                std::count(backward_.begin(), backward_.end(), -1));
-  for (std::size_t i = 0; i < forward_.size(); ++i) {
-    const auto pair = static_cast<Eigen::Index>(i);
-    values[forward_[i]] = even_[pair] + odd_[pair];
-    if (backward_[i] >= 0) values[backward_[i]] = even_[pair] - odd_[pair];
-  }
+  const Eigen::Index alone = odd_.size() - pairs_;
+  total_ = side * even_;
+  total_.head(pairs_) += odd_.head(pairs_).abs();
+  total_.tail(alone) += side * odd_.tail(alone);
+  Eigen::Index at = 0;
+  const double largest = total_.maxCoeff(&at);
+  const bool backward = at < pairs_ && side * odd_[at] < 0;
+  which = (backward ? backward_ : forward_)[static_cast<std::size_t>(at)];
+  return largest;
 }
 
 }  // namespace maxwrench

@@ -29,11 +29,11 @@ class CurrentCases {
   /// Moves to a posture, which must outlive the calls below. They allocate nothing after the first.
   void set(const Posture& posture);
   /// Chooses n and computes a, M and w.
-  void aim(const Eigen::Ref<const Eigen::VectorXd>& n);
+  void aim(const Eigen::VectorXd& n);
   /// A bound of |n'tau| over all cases, from the largest speed.
   double bound() const;
-  /// Writes n'tau of each case.
-  void fill(Eigen::ArrayXd& values);
+  /// Returns the largest side n'tau of all cases, with the case that has it. The side is 1 or -1.
+  double worst(double side, int& which);
 
  private:
   /// An axis of a body that has quadratic drag along it.
@@ -66,11 +66,12 @@ class CurrentCases {
   double speed_ = 0;      ///< the largest of the currents
   Eigen::Vector3d used_;  ///< 1 for each axis of the world along which some current flows, else 0
   Eigen::VectorXd most_;
-  /// Of each pair of opposite currents and each current alone: V, the products xx, yy, zz, xy, xz
-  /// and yz of its components, and the cases of V and -V (-1: none).
+  /// Of each pair of opposite currents, then of each current alone: V, the products xx, yy, zz, xy,
+  /// xz and yz of its components, and the cases of V and -V (-1: none).
   Eigen::ArrayX3d V_;
   Eigen::MatrixXd products_;
   std::vector<int> forward_, backward_;
+  Eigen::Index pairs_ = 0;
 
   const Posture* posture_ = nullptr;
   bool placed_ = false;                        ///< whether what follows is of the posture
@@ -79,7 +80,7 @@ class CurrentCases {
   Eigen::Vector3d a_;
   Eigen::Matrix<double, 6, 1> m_;  ///< the factors of the products in V'M V
   Eigen::VectorXd w_;
-  Eigen::ArrayXd odd_, even_, along_;
+  Eigen::ArrayXd odd_, even_, along_, total_;
 };
 
 }  // namespace maxwrench

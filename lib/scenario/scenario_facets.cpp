@@ -125,20 +125,31 @@ void ScenarioFacets::combine(const Load& load, Eigen::Index which) {
 void ScenarioFacets::aim(Eigen::Index pair) {
   if (aimed_ == pair) return;
   aimed_ = pair;
+  normal_ = set_.N.col(pair);
   for (Load& load : loads_) {
-    if (load.currents) load.currents->aim(set_.N.col(pair));
+    if (load.currents) load.currents->aim(normal_);
   }
 }
 
-/// Writes n_j'tau of all cases, for one j, into `values`.
-void ScenarioFacets::fill_values(Load& load, Eigen::Index pair) {
+/// The largest n_j'tau of all cases, or -n_j'tau of a lower side, and the case that has it.
+double ScenarioFacets::worst_case(Load& load, Eigen::Index row, int& which) {
+  const Eigen::Index pair = row % pairs_;
+  const double side = row < pairs_ ? 1 : -1;
   if (load.currents) {
     aim(pair);
-    load.currents->fill(load.values);
-  } else {
-    load.values.matrix().noalias() =
-        load.coefficients.transpose() * load.projections.row(pair).transpose().matrix();
+    return load.currents->worst(side, which);
   }
+  double worst = -kInfinity;
+  for (Eigen::Index i = 0; i < load.count(); ++i) {
+    double value = 0;
+    for (Eigen::Index k = 0; k < load.coefficients.rows(); ++k) {
+      value += load.coefficients(k, i) * load.projections(pair, k);
+    }
+    if (side * value <= worst) continue;
+    worst = side * value;
+    which = static_cast<int>(i);
+  }
+  return worst;
 }
 
 void ScenarioFacets::set_margins(ScenarioForces& at) {
@@ -198,9 +209,7 @@ bool ScenarioFacets::refine(Eigen::Index row) {
     if (of == Margin::kBoundedClosely) {
       margins_[row] -= load.currents->bound();
     } else {
-      fill_values(load, pair);
-      Eigen::Index& worst = load.worst[static_cast<std::size_t>(row)];
-      margins_[row] -= row < pairs_ ? load.values.maxCoeff(&worst) : -load.values.minCoeff(&worst);
+      margins_[row] -= worst_case(load, row, load.worst[static_cast<std::size_t>(row)]);
     }
   }
   return true;
@@ -274,15 +283,11 @@ bool ScenarioFacets::choose(ScenarioForces& at, const End& end, ScenarioChoice& 
   for (std::size_t group = 0; group < loads_.size(); ++group) {
     Load& load = loads_[group];
     const auto row = static_cast<std::size_t>(end.row);
-    Eigen::Index worst = 0;
     if (load.currents && of_[row] == Margin::kOfCases) {
-      worst = load.worst[row];
+      choice.cases[group] = load.worst[row];
     } else {
-      fill_values(load, pair);
-      load.values *= side;
-      load.values.maxCoeff(&worst);
+      worst_case(load, end.row, choice.cases[group]);
     }
-    choice.cases[group] = static_cast<int>(worst);
   }
   return true;
 }

@@ -67,8 +67,7 @@ class ScenarioFacets {
     Eigen::ArrayXXd projections;           ///< N' of the generalised forces of the basis (f×basis)
     Eigen::ArrayXd bound;                  ///< with `currents`: of |n_j'tau| over all cases (f)
     bool anywhere = false;                 ///< whether `bound` holds at all postures
-    Eigen::ArrayXd values;                 ///< n_j'tau of each case, for one j
-    std::vector<Eigen::Index> worst;  ///< with `currents`: of each row, its worst case, if known
+    std::vector<int> worst;  ///< with `currents`: of each row, its worst case, if known
     Eigen::Index count() const { return static_cast<Eigen::Index>(cases->size()); }
   };
   /// A wrench with its rows: upper sides, then lower ones.
@@ -88,7 +87,7 @@ class ScenarioFacets {
   void set_wrench(ScenarioForces& at, int i);
   void combine(const Load& load, Eigen::Index which);
   void aim(Eigen::Index pair);
-  void fill_values(Load& load, Eigen::Index pair);
+  double worst_case(Load& load, Eigen::Index row, int& which);
   void set_bounds(ScenarioForces& at);
   bool refine(Eigen::Index row);
   bool misses(const Eigen::ArrayXd& limits, const Wrench& wrench, Eigen::Index& row);
@@ -112,7 +111,7 @@ class ScenarioFacets {
   Eigen::Index aimed_ = 0;  ///< the pair of the currents' normal; -1: none
   End high_end_, low_end_;
   double high_inverse_ = 0;
-  Eigen::VectorXd tau_;
+  Eigen::VectorXd tau_, normal_;
   Eigen::ArrayXXd ball_;  ///< N'J' of the ball's axes (f×d)
   double size_ = 0;       ///< of the generalised forces of a wrench, with those of the ball
 };

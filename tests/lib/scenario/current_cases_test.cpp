@@ -31,7 +31,6 @@ void expect_inverse_dynamics(const Problem& problem) {
   Random random(5);
   PostureEvaluator evaluator(problem, false);
   CurrentLoad one(problem.robot);
-  Eigen::ArrayXd values;
   for (int i = 0; i < samples(50); ++i) {
     const Posture& posture = evaluator.evaluate(random_theta_r(problem, random));
     const LoadGroup cases = random_currents(random, 1 + i * 3, i % 4);
@@ -40,15 +39,22 @@ void expect_inverse_dynamics(const Problem& problem) {
     one.set(posture.base.R, posture.q);
     const Eigen::VectorXd normal = random_numbers(random, problem.robot.velocities());
     currents.aim(normal);
-    currents.fill(values);
-    ASSERT_EQ(values.size(), static_cast<Eigen::Index>(cases.size()));
+    Eigen::VectorXd along(static_cast<Eigen::Index>(cases.size()));
     for (std::size_t k = 0; k < cases.size(); ++k) {
       Eigen::VectorXd expected(problem.robot.velocities());
       one.evaluate(cases[k].current, expected);
-      const double rounding = 1e-12 * (1 + expected.norm()), along = normal.dot(expected);
-      EXPECT_NEAR(values[static_cast<Eigen::Index>(k)], along, rounding * normal.norm());
-      EXPECT_LE(std::abs(along), currents.bound() + rounding * normal.norm());
+      along[static_cast<Eigen::Index>(k)] = normal.dot(expected);
+      const double rounding = 1e-12 * (1 + expected.norm());
       EXPECT_LT((expected.cwiseAbs() - currents.most()).maxCoeff(), rounding);
+    }
+    const double rounding = 1e-12 * (1 + along.cwiseAbs().maxCoeff());
+    EXPECT_LE(along.cwiseAbs().maxCoeff(), currents.bound() + rounding);
+    for (const double side : {-1.0, 1.0}) {
+      int which = -1;
+      const double worst = currents.worst(side, which);
+      EXPECT_NEAR(worst, (side * along).maxCoeff(), rounding);
+      ASSERT_TRUE(which >= 0 && which < along.size());
+      EXPECT_NEAR(side * along[which], worst, rounding);
     }
   }
 }
