@@ -38,7 +38,7 @@ int print_front(const ParetoOptions& options) {
   }
   for (const Goal& goal : goals) require_static(goal.task, "pareto");
   FrontPlan plan = options.plan;
-  if (plan.points == 0) {
+  if (plan.points == 0 && !options.compromise) {
     throw std::invalid_argument(
         "--points: got 0, expected 2 or more, or --compromise in its place");
   }
