@@ -12,8 +12,8 @@ set(maxwrench_lib_sources
   posture/movable.cpp posture/posture.cpp posture/pull_back.cpp posture/redundancy.cpp posture/scenario_slopes.cpp posture/tally.cpp posture/violation.cpp
   robot/chain.cpp robot/clearance_slope.cpp robot/contact.cpp robot/dynamics.cpp robot/dynamics_slopes.cpp robot/free_motion.cpp
   robot/kinematics.cpp robot/problem.cpp robot/robot.cpp
-  scenario/ball_across.cpp scenario/current_cases.cpp scenario/current_load.cpp scenario/scenario_facets.cpp scenario/scenario_list.cpp scenario/scenario_program.cpp
-  scenario/static_load.cpp
+  scenario/ball_across.cpp scenario/current_cases.cpp scenario/current_load.cpp scenario/scenario_facets.cpp scenario/scenario_list.cpp scenario/scenario_margins.cpp
+  scenario/scenario_program.cpp scenario/static_load.cpp
   search/capability.cpp search/facet_program.cpp search/scenario_rows.cpp
   tank/control_loop.cpp tank/controller.cpp tank/effort_tracking.cpp tank/motion_run.cpp tank/ode.cpp tank/options.cpp
   tank/reference.cpp tank/script.cpp tank/summary.cpp tank/tank.cpp

@@ -123,15 +123,10 @@ void CurrentCases::set_most() {
 }
 
 void CurrentCases::set(const Posture& posture) {
-  posture_ = &posture;
-  placed_ = false;
-}
-
-void CurrentCases::place() {
-  const Eigen::Matrix3d& R = posture_->base.R;
+  R_ = posture.base.R;
   for (std::size_t link = 0; link < frames_.size(); ++link) {
-    frames_[link].R = R * posture_->links[link].R;
-    frames_[link].p = R * posture_->links[link].p;
+    frames_[link].R = R_ * posture.links[link].R;
+    frames_[link].p = R_ * posture.links[link].p;
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const Pose<double>& frame = frames_[i + 1];
@@ -151,18 +146,15 @@ void CurrentCases::place() {
     axis.e = frame.R * axis.along;
     axis.moment = (frame.R * axis.at + frame.p).cross(axis.e);
   }
-  placed_ = true;
 }
 
 void CurrentCases::aim(const Eigen::VectorXd& n) {
-  if (!placed_) place();
   const std::size_t axes = robot_.base_axes.size();
   Screw<double>& base = links_.front();
   base = {Eigen::Vector3d::Zero(), Eigen::Vector3d::Zero()};
   for (std::size_t i = 0; i < axes; ++i) {
     const int axis = robot_.base_axes[i];
-    (axis < 3 ? base.linear : base.angular) +=
-        n[static_cast<Eigen::Index>(i)] * posture_->base.R.col(axis % 3);
+    (axis < 3 ? base.linear : base.angular) += n[static_cast<Eigen::Index>(i)] * R_.col(axis % 3);
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
     const double rate = n[static_cast<Eigen::Index>(axes + i)];

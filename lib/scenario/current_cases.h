@@ -26,7 +26,7 @@ class CurrentCases {
   /// (n), which may be infinite.
   const Eigen::VectorXd& most() const { return most_; }
 
-  /// Moves to a posture, which must outlive the calls below. They allocate nothing after the first.
+  /// Moves to a posture. This and the calls below allocate nothing after the first.
   void set(const Posture& posture);
   /// Chooses n and computes a, M and w.
   void aim(const Eigen::VectorXd& n);
@@ -58,7 +58,6 @@ class CurrentCases {
   void pair_opposites(const LoadGroup& cases);
   void set_most();
   double farthest(std::size_t first, std::size_t link) const;
-  void place();
 
   const Robot& robot_;
   std::vector<Water> water_;
@@ -73,8 +72,7 @@ class CurrentCases {
   std::vector<int> forward_, backward_;
   Eigen::Index pairs_ = 0;
 
-  const Posture* posture_ = nullptr;
-  bool placed_ = false;                        ///< whether what follows is of the posture
+  Eigen::Matrix3d R_;                          ///< of the base
   std::vector<Pose<double>> frames_;           ///< of the links, in world axes about the base
   std::vector<Screw<double>> joints_, links_;  ///< twist per unit rate of a joint; of links by n
   Eigen::Vector3d a_;

@@ -1,11 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "lib/scenario/current_cases.h"
 #include "lib/scenario/scenario_forces.h"
+#include "lib/scenario/scenario_margins.h"
 #include "maxwrench/capability.h"
 #include "maxwrench/problem.h"
 
@@ -17,11 +16,9 @@ namespace maxwrench {
 ///
 ///     b_min,s,j <= n_j'tau_s + beta n_j'J'c_s <= b_max,s,j   for all j.
 ///
-/// Each side of each pair is a row "slope beta <= margin". A load changes margins only, and loads
-/// are independent, so each row takes the worst case of each load: combinations of cases need not
-/// be listed. Of a load with many currents, each row first takes a bound of the worst case, then a
-/// closer one; the case itself is found only for rows that may be the end. A ball of radius r adds
-/// r |E'J n_j| to the slope of both rows of a pair, which is its support function.
+/// Each side of each pair is a row "slope beta <= limit + margin" (`ScenarioMargins`). Margins that
+/// are only bounds are refined for rows that may be the end. A ball of radius r adds r |E'J n_j| to
+/// the slope of both rows of a pair, which is its support function.
 class ScenarioFacets {
  public:
   explicit ScenarioFacets(const Problem& problem);
@@ -57,19 +54,6 @@ class ScenarioFacets {
   void fill_slope(Eigen::VectorXd& lambda) const;
 
  private:
-  /// The cases of a load as combinations of few loads, whose projections on the normals suffice; or
-  /// the currents of all.
-  struct Load {
-    const LoadGroup* cases = nullptr;
-    std::optional<CurrentCases> currents;  ///< if a case has a current
-    std::vector<LoadCase> basis;           ///< the loads; with `currents` none
-    Eigen::MatrixXd coefficients;          ///< of the basis, for each case (basis×cases)
-    Eigen::ArrayXXd projections;           ///< N' of the generalised forces of the basis (f×basis)
-    Eigen::ArrayXd bound;                  ///< with `currents`: of |n_j'tau| over all cases (f)
-    bool anywhere = false;                 ///< whether `bound` holds at all postures
-    std::vector<int> worst;  ///< with `currents`: of each row, its worst case, if known
-    Eigen::Index count() const { return static_cast<Eigen::Index>(cases->size()); }
-  };
   /// A wrench with its rows: upper sides, then lower ones.
   struct Wrench {
     Eigen::ArrayXd inverse;     ///< reciprocals of the slopes; 0 for rows parallel to beta
@@ -80,16 +64,8 @@ class ScenarioFacets {
     int wrench = -1, limits = 0;
     Eigen::Index row = 0;
   };
-  static Load make_load(const Robot& robot, const LoadGroup& cases);
-  void project(const Eigen::VectorXd& tau, Eigen::Ref<Eigen::ArrayXd> onto) const;
-  void set_margins(ScenarioForces& at);
   void set_slopes(ScenarioForces& at, int i);
   void set_wrench(ScenarioForces& at, int i);
-  void combine(const Load& load, Eigen::Index which);
-  void aim(Eigen::Index pair);
-  double worst_case(Load& load, Eigen::Index row, int& which);
-  void set_bounds(ScenarioForces& at);
-  bool refine(Eigen::Index row);
   bool misses(const Eigen::ArrayXd& limits, const Wrench& wrench, Eigen::Index& row);
   bool scan_high(int wrench, int limits);
   void scan_low(int wrench, int limits);
@@ -100,18 +76,13 @@ class ScenarioFacets {
   const Problem& problem_;
   const Zonotope& set_;
   Eigen::Index pairs_;
-  std::vector<Load> loads_;
   std::vector<Eigen::ArrayXd> limits_;  ///< [b_max; -b_min] of each set of limits
   std::vector<Wrench> wrenches_;
-  Eigen::ArrayXd nominal_, most_, least_, value_, margins_, slope_, widening_, row_, part_;
-  /// What the margin of a row is of: a bound, a closer one, or the worst cases.
-  enum class Margin : char { kBounded, kBoundedClosely, kOfCases };
-  std::vector<Margin> of_;  ///< of each row, if a load has currents
-  Eigen::ArrayXd still_;    ///< the margins without currents
-  Eigen::Index aimed_ = 0;  ///< the pair of the currents' normal; -1: none
+  ScenarioMargins margins_;
+  Eigen::ArrayXd slope_, widening_, row_, part_;
   End high_end_, low_end_;
   double high_inverse_ = 0;
-  Eigen::VectorXd tau_, normal_;
+  Eigen::VectorXd tau_;
   Eigen::ArrayXXd ball_;  ///< N'J' of the ball's axes (f×d)
   double size_ = 0;       ///< of the generalised forces of a wrench, with those of the ball
 };

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "maxwrench/load.h"
+#include "maxwrench/posture.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/tank.h"
 #include "maxwrench/trajectory.h"
