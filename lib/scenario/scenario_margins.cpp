@@ -39,7 +39,8 @@ ScenarioMargins::ScenarioMargins(const Problem& problem)
       value_(pairs_),
       values_(2 * pairs_),
       tau_(problem.robot.actuation.dimension()) {
-  for (const LoadGroup& group : problem.scenarios.loads) loads_.push_back(make_load(problem.robot, group));
+  for (const LoadGroup& group : problem.scenarios.loads)
+    loads_.push_back(make_load(problem.robot, group));
   const bool currents = std::any_of(loads_.begin(), loads_.end(),
                                     [](const Load& load) { return load.currents.has_value(); });
   if (currents) of_.resize(static_cast<std::size_t>(2 * pairs_));
