@@ -2,10 +2,14 @@
 
 import os
 import pathlib
+import signal
 import subprocess
 
 import maxwrench
 import pytest
+
+# A shell without job control starts what it runs in the background with SIGINT ignored, and Python then handles no Ctrl-C.
+signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 @pytest.fixture(scope="session")
