@@ -119,7 +119,8 @@ class ShapePairs : public CollisionChecker {
   }
 
   int colliding_pair(const std::vector<Pose<double>>& links) const override {
-    thread_local std::vector<Placed> moving;  // allocates when it grows, not at every posture
+    thread_local std::vector<Placed> of_thread;  // allocates when it grows, not at every posture
+    std::vector<Placed>& moving = of_thread;     // found once: each look-up takes time
     moving.resize(shapes_.size());
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       const int link = shapes_[i].link;
