@@ -161,6 +161,17 @@ def test_ring_proof(tmp_path):
     assert len(grid) == 22 and all(row[3] == "?" for row in grid[8:14])
 
 
+def test_proof_times(tmp_path):
+    urdf = FOLDER.parents[1] / "tests/data/robots/panda/panda.urdf"
+    text = run(tmp_path, "proof_times.py", urdf, "panda_hand_tcp", "--poses", "3", "--gap", "0.1", "--seconds", "5", "--out", "times.csv")
+    assert re.search(r"^panda: \d of 3 poses proven to 10 % within 5 s$", text, re.MULTILINE)
+    table = [line.split(",") for line in (tmp_path / "times.csv").read_text().splitlines()]
+    assert table[0][:6] == ["pose", "beta", "bound", "gap", "boxes", "status"] and len(table) == 4
+    for _, beta, bound, gap, boxes, status, *_ in table[1:]:
+        assert 0 < float(beta) <= float(bound) and int(boxes) > 0
+        assert (status == "proven") == (float(gap) <= 0.1)
+
+
 @pytest.fixture
 def proof():
     sys.path.insert(0, str(FOLDER))
