@@ -42,9 +42,12 @@ class BuildByCMake(build_ext):
 
     def configure(self, build):
         generator = ["-G", "Ninja"] if shutil.which("ninja") else []
+        # Clang takes half of GCC's time.
+        clang = shutil.which("clang++") and "CXX" not in os.environ
+        compiler = ["-D", "CMAKE_CXX_COMPILER=clang++"] if clang else []
         subprocess.run(
             [
-                "cmake", *generator, "-S", str(SOURCE), "-B", build,
+                "cmake", *generator, *compiler, "-S", str(SOURCE), "-B", build,
                 "-D", "CMAKE_BUILD_TYPE=Release", "-D", "CMAKE_UNITY_BUILD=ON",
                 "-D", "MAXWRENCH_WITH_PYTHON=ON", "-D", f"Python_EXECUTABLE={sys.executable}",
                 "-D", "MAXWRENCH_BUILD_COMMAND=OFF", "-D", "MAXWRENCH_BUILD_BENCHMARKS=OFF",
