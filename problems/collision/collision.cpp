@@ -71,6 +71,7 @@ Test test_of(const Shape& a, const Shape& b) {
 /// Two shapes on different links, with their grown shapes if these are tested.
 struct Pair {
   int a, b;
+  bool fixed_a, fixed_b;  ///< whether the shape is in the world
   Test test;
   double reach;  ///< shapes whose centres are farther apart than this cannot collide
   std::shared_ptr<const GrownShape> grown_a, grown_b;
@@ -79,8 +80,8 @@ struct Pair {
 Pair make_pair(const std::vector<Shape>& shapes, int i, int j, double margin) {
   const Shape& a = shapes[static_cast<std::size_t>(i)];
   const Shape& b = shapes[static_cast<std::size_t>(j)];
-  Pair pair{i,       j,      test_of(a, b), bounding_radius(a) + bounding_radius(b) + margin,
-            nullptr, nullptr};
+  const double reach = bounding_radius(a) + bounding_radius(b) + margin;
+  Pair pair{i, j, a.link <= 0, b.link <= 0, test_of(a, b), reach, nullptr, nullptr};
   if (pair.test != Test::kGrown) return pair;
   const bool grow_b = is(b, Shape::Kind::kCapsule);  // growing a capsule is exact
   pair.grown_a = make_grown_shape(a, grow_b ? 0 : margin);
@@ -126,14 +127,15 @@ class ShapePairs : public CollisionChecker {
       const int link = shapes_[i].link;
       if (link > 0) moving[i] = place(shapes_[i], links[index(link)], oriented_[i]);
     }
-    const auto placed = [&](std::size_t i) -> const Placed& {
-      return shapes_[i].link > 0 ? moving[i] : fixed_[i];
-    };
-    const auto found = std::find_if(pairs_.begin(), pairs_.end(), [&](const Pair& pair) {
-      const Placed &a = placed(index(pair.a)), &b = placed(index(pair.b));
-      return (a.pose.p - b.pose.p).squaredNorm() <= pair.reach * pair.reach && collide(pair, a, b);
-    });
-    return found == pairs_.end() ? -1 : static_cast<int>(found - pairs_.begin());
+    // A loop, since Clang does not inline the test into std::find_if.
+    for (std::size_t i = 0; i < pairs_.size(); ++i) {
+      const Pair& pair = pairs_[i];
+      const Placed& a = (pair.fixed_a ? fixed_ : moving)[index(pair.a)];
+      const Placed& b = (pair.fixed_b ? fixed_ : moving)[index(pair.b)];
+      const bool far = (a.pose.p - b.pose.p).squaredNorm() > pair.reach * pair.reach;
+      if (!far && collide(pair, a, b)) return static_cast<int>(i);
+    }
+    return -1;
   }
 
   bool nearest(const std::vector<Pose<double>>& links, int i,
