@@ -3,23 +3,7 @@
 # the examples. Quiet unless something fails.
 set -euo pipefail
 source=$1 build=$2 compiler=$3
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-log=$work/log
-fail() {
-  echo "install: $*" >&2
-  [ ! -s "$log" ] || tail -n 40 "$log" >&2
-  exit 1
-}
-quietly() { "$@" > "$log" 2>&1 || fail "failed: $*"; }
-# same WHAT GOT EXPECTED
-same() { [ "$2" = "$3" ] || fail "$1: got '$2', expected '$3'"; }
-# holds FILE WORD...: each stands in it.
-holds() {
-  local file=$1 word
-  shift
-  for word; do grep -qF -- "$word" "$file" || fail "$file does not hold '$word'"; done
-}
+. "$source/tests/install/checks.sh"
 
 quietly cmake --install "$build" --prefix "$work/first"
 mv "$work/first" "$work/moved"
@@ -71,7 +55,7 @@ same "completion" "$(complete_words maxwrench solve uvms/valve --search slp)" sl
 same "completion" "$(complete_words maxwrench eval uvms/valve_trajectory --solver s)" "simplex"
 
 # The examples, by CMake and by pkg-config.
-cp -r "$source/examples" "$source/tests/install/native" .
+cp -r "$source/examples" .
 quietly cmake -S examples -B cmake -D CMAKE_CXX_COMPILER="$compiler" -D CMAKE_PREFIX_PATH="$prefix" -D CMAKE_CXX_FLAGS=-O0
 quietly cmake --build cmake
 mkdir make
@@ -106,9 +90,7 @@ read -ra flags <<< "$(pkg-config --cflags maxwrench)"
 ! grep -q EIGEN_ "$prefix"/lib*/cmake/maxwrench/maxwrenchTargets.cmake || fail "the target sets Eigen's macros"
 "$compiler" -std=c++20 -fsyntax-only "${flags[@]}" "$source/tests/install/parent/parent.cpp"
 rejected "${flags[@]}" -DEIGEN_MALLOC_ALREADY_ALIGNED=0
-avx=OFF
-if [[ $("$compiler" -march=native -dM -E -x c++ /dev/null) == *__AVX__* ]]; then  # grep -q would break the pipe
-  avx=ON
+if [ "$(avx_of "$compiler")" = ON ]; then
   rejected "${flags[@]}" -march=native
   rejected "${flags[@]}" -march=native -DEIGEN_MAX_ALIGN_BYTES=16 -DEIGEN_MALLOC_ALREADY_ALIGNED=1  # Eigen's products would crash
   rejected -I"$prefix/include" -I"$(pkg-config --variable=prefix eigen3)/include/eigen3" -march=native
@@ -123,27 +105,4 @@ quietly cmake -S "$source/tests/install/parent" -B parent -D MAXWRENCH="$source"
 holds parent/compile_commands.json parent.cpp /lib/robot/robot.cpp -DNDEBUG
 ! grep -q -e -Werror -e -Wall parent/compile_commands.json || fail "our warnings reach a project that adds us"
 
-# Without its libraries nothing is built that would need them. This one is built and run, each floor as one unit: that shows names that
-# clash in other batches too, and takes the least time. It is the library for programs with AVX, and the one that GCC makes.
-quietly cmake -S "$source/tests/install/parent" -B bare -D MAXWRENCH="$source" -D CMAKE_UNITY_BUILD=ON \
-  -D CMAKE_UNITY_BUILD_BATCH_SIZE=0 -D CMAKE_CXX_FLAGS=-O0 \
-  -D CMAKE_CXX_COMPILER="$compiler" -D MAXWRENCH_WITH_IPOPT=OFF -D MAXWRENCH_WITH_CLP=OFF \
-  -D MAXWRENCH_WITH_GLPK=OFF -D MAXWRENCH_WITH_NLOPT=OFF -D MAXWRENCH_WITH_PAGMO=OFF -D MAXWRENCH_WITH_SUNDIALS=OFF \
-  -D MAXWRENCH_AVX=$avx -D PARENT_FLAGS=-march=native -D MAXWRENCH_INSTALL=ON
-find bare -name 'unity_*.cxx' -exec cat {} + > bare.sources
-holds bare.sources solvers/lp/simplex.cpp solvers/search/grid.cpp
-for file in $(grep -lE '#include <(Ip|Clp|glpk|nlopt|pagmo|arkode|cvode|ida|nvector|sundials)' -r "$source/solvers" --include='*.cpp'); do
-  file=${file#"$source/"}
-  [ "$file" = solvers/version.cpp ] || ! grep -q "$file" bare.sources || fail "$file needs a library that is left out"
-done
-quietly cmake --build bare --parallel "$(nproc)" --target parent
-bare/parent > bare.out 2> "$log" || fail "a build without libraries fails"
-holds bare.out "facets grid best_found" "simplex annealing best_found" "no clp" "no multistart"
-! grep -q "^clp\|infeasible\|none_found" bare.out || fail "a build without libraries has no answers"
-
-# Installed, it links with a program built with -march=native whose other files know nothing of us.
-quietly cmake --install bare --prefix "$work/bare_prefix"
-quietly cmake -S native -B native/build -D CMAKE_CXX_COMPILER="$compiler" -D CMAKE_PREFIX_PATH="$work/bare_prefix" -D CMAKE_CXX_FLAGS=-O0
-quietly cmake --build native/build
-native/build/native > native.out 2> "$log" || fail "a program with -march=native fails"
-same "native" "$(sed 's/native [0-9.]* //' native.out)" "1 360000"
+"$source/tests/install/bare.sh" "$source" "$(command -v clang++ || echo "$compiler")" "$compiler"
