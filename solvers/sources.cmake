@@ -16,7 +16,7 @@ set(maxwrench_solvers_sources
   lp/simplex.cpp
   lp/simplex/dual.cpp lp/simplex/engine.cpp lp/simplex/factor.cpp lp/simplex/inverse.cpp lp/simplex/model.cpp
   lp/simplex/primal.cpp
-  map/lattice.cpp map/map.cpp map/map_text.cpp map/plan_check.cpp map/posed.cpp
+  map/lattice.cpp map/map.cpp map/map_text.cpp map/plan_check.cpp map/posed.cpp map/robot_keys.cpp
   pareto/front.cpp pareto/front_text.cpp pareto/weighted.cpp
   search/annealing.cpp search/batch.cpp search/cmaes.cpp search/composition.cpp search/facet_starts.cpp search/grid.cpp
   search/joint_program.cpp search/knot_drawing.cpp search/knot_starts.cpp search/local_search.cpp search/probe.cpp

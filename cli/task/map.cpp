@@ -101,8 +101,8 @@ int print_map(const MapCommandOptions& options) {
 
 void add_map(CLI::App& app, int& exit_status) {
   auto options = std::make_shared<MapCommandOptions>();
-  CLI::App& command =
-      *app.add_subcommand("map", "finds the best wrench over a grid of poses and directions");
+  CLI::App& command = *app.add_subcommand(
+      "map", "finds the best wrench over a grid of poses, directions and parameters");
   options->add_case(command);
   options->add_search(command);
   command.get_option("--search")
@@ -118,7 +118,9 @@ void add_map(CLI::App& app, int& exit_status) {
           "--over", options->over,
           "NAME=LOW:HIGH:COUNT for each coordinate: x y z roll pitch yaw (offsets of the "
           "pose), azimuth elevation (of c), wrench (its number), thrust torque or the name of "
-          "an actuator (factors of limits)")
+          "an actuator (factors of limits), environment.gravity, environment.water_density, "
+          "environment.current.x (.y .z), trim.buoyancy_mass, links.NAME.mass (values in place of "
+          "the robot's), payload.mass (carried beside the wrench)")
       ->required();
   command
       .add_option("--refine", options->plan.refine,

@@ -9,7 +9,7 @@
 #include "maxwrench/solve.h"
 
 /// @file
-/// Capability maps: the best value over a grid of poses and directions.
+/// Capability maps: the best value over a grid of poses, directions and parameters.
 
 namespace maxwrench {
 
@@ -26,6 +26,12 @@ inline constexpr long kMostCells = 1'000'000;
 /// * "wrench": the number of one of several wrenches of a task, from 1.
 /// * "thrust", "torque", or the name of an actuator: a factor [-] above 0. It multiplies the limits
 ///   of all thrusters, of the efforts of all joints, or of this actuator.
+/// * "environment.gravity" [m/s^2], "environment.water_density" [kg/m^3],
+///   "environment.current.x", ".y", ".z" [m/s], "trim.buoyancy_mass" [kg]: this value in place of
+///   that of the robot or task.
+/// * "links.NAME.mass" [kg]: the mass of the body NAME of `Robot::parts`, at its centre of mass.
+/// * "payload.mass" [kg]: the mass of a point at the end effector's origin, which the robot
+///   carries beside the wrench.
 struct MapAxis {
   std::string name;  ///< the name of the coordinate
   double low = 0,    ///< the first value
@@ -33,10 +39,10 @@ struct MapAxis {
   long count = 1;    ///< number of values; with one value low = high
 };
 
-/// The coordinates that a map can have beside the names of actuators, in the order above.
+/// The coordinates that a map can have beside masses of bodies and the names of actuators.
 const std::vector<std::string>& map_coordinates();
 
-/// Returns the unit of a coordinate of a map: "m", "rad" or "-".
+/// Returns the unit of a coordinate of a map, such as "m", "rad" or "kg"; "-": it has none.
 const char* map_unit(const std::string& coordinate);
 
 /// One place of a map: the best posture that was found there.
@@ -113,7 +119,7 @@ struct CapabilityMap : Verdict {
   const MapCell* best() const;
 };
 
-/// Computes the best value over a grid of poses and directions.
+/// Computes the best value over a grid of poses, directions and parameters.
 ///
 /// Each cell is a task of its own, and its value is that of the best posture which the search of
 /// `options` finds. Level 0 is every fourth value of each coordinate, and the last one; it has no

@@ -157,7 +157,8 @@ std::string repr_of_map(const PyMap& self) {
       best ? fmt::format("at most {:.6g} {}", best->beta, self.map.unit) : std::string("no value"));
 }
 
-constexpr const char* kMap = R"(Computes the best value over a grid of poses and directions.
+constexpr const char* kMap =
+    R"(Computes the best value over a grid of poses, directions and parameters.
 
 Each cell is a task of its own; its value is that of the best posture that the search finds. Cells
 after the first level begin at the postures of their neighbours. The map is the same at any number
@@ -168,7 +169,9 @@ Args:
     over: the coordinates, such as ``{"x": (-0.2, 0.2, 9)}``: low, high and the number of values.
         They are x, y, z [m], roll, pitch, yaw [rad], offsets along and about the axes of the task's
         pose; azimuth, elevation, the direction of c [rad]; wrench, the number of one of several;
-        thrust, torque or the name of an actuator, a factor of its limits.
+        thrust, torque or the name of an actuator, a factor of its limits; environment.gravity,
+        environment.water_density, environment.current.x (.y, .z), trim.buoyancy_mass,
+        links.NAME.mass, in SI units, in place of the robot's; payload.mass, carried in addition.
     refine: how often cells of the grid are halved whose corners differ.
     tolerance: the difference of corners, as a share of the largest, above which they do.
     check: share of the cells that a search from scratch checks; see ``scratch``.

@@ -12,6 +12,7 @@
 #include "maxwrench/bound.h"
 #include "maxwrench/objective.h"
 #include "solvers/certify/certify.h"
+#include "solvers/map/robot_keys.h"
 #include "solvers/solve/method.h"
 
 namespace maxwrench {
@@ -33,11 +34,11 @@ std::string shown(const MapAxis& axis) {
 }
 
 void check_axis(const MapAxis& axis, const Problem& task) {
-  const std::vector<std::string>& known = map_coordinates();
   const bool scales = !scaled_actuators(task.robot, axis.name).empty();
-  if (!scales && std::find(known.begin(), known.end(), axis.name) == known.end()) {
-    throw_bad_axis(axis, fmt::format("one of the coordinates {}, or the name of an actuator",
-                                     fmt::join(known, " ")));
+  if (!scales && !is_map_coordinate(axis.name)) {
+    throw_bad_axis(axis, fmt::format("one of the coordinates {}, links.NAME.mass, or the name of "
+                                     "an actuator",
+                                     fmt::join(map_coordinates(), " ")));
   }
   if (!scales && (axis.name == "thrust" || axis.name == "torque")) {
     throw_bad_axis(axis, fmt::format("another coordinate: the robot has no {}",
@@ -55,6 +56,9 @@ void check_axis(const MapAxis& axis, const Problem& task) {
   }
   if (axis.count > 1 && !(axis.low < axis.high)) throw_bad_axis(axis, "low < high");
   if (scales && !(axis.low > 0)) throw_bad_axis(axis, "factors above 0");
+  if (unit_of_robot_key(axis.name)) {
+    if (const auto expected = fault_of_robot_key(task, axis)) throw_bad_axis(axis, *expected);
+  }
   if (axis.name != "wrench") return;
   const auto wrenches = static_cast<double>(task.scenarios.wrenches.size());
   const double step = axis.count > 1 ? (axis.high - axis.low) / (axis.count - 1) : 1;
@@ -110,12 +114,22 @@ bool same_values(const std::vector<double>& a, const std::vector<double>& b) {
 }  // namespace
 
 const std::vector<std::string>& map_coordinates() {
-  static const std::vector<std::string> kNames = {
-      "x", "y", "z", "roll", "pitch", "yaw", "azimuth", "elevation", "wrench", "thrust", "torque"};
+  static const std::vector<std::string> kNames = [] {
+    std::vector<std::string> names = {"x",       "y",         "z",      "roll",   "pitch", "yaw",
+                                      "azimuth", "elevation", "wrench", "thrust", "torque"};
+    names.insert(names.end(), robot_keys().begin(), robot_keys().end());
+    return names;
+  }();
   return kNames;
 }
 
+bool is_map_coordinate(const std::string& name) {
+  const std::vector<std::string>& known = map_coordinates();
+  return unit_of_robot_key(name) || std::find(known.begin(), known.end(), name) != known.end();
+}
+
 const char* map_unit(const std::string& coordinate) {
+  if (const auto unit = unit_of_robot_key(coordinate)) return *unit;
   const std::vector<std::string>& known = map_coordinates();
   const auto place = std::find(known.begin(), known.end(), coordinate) - known.begin();
   return place < 3 ? "m" : place < 8 ? "rad" : "-";

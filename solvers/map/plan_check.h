@@ -7,6 +7,9 @@ namespace maxwrench {
 /// Throws std::invalid_argument, with one line, unless the plan can be carried out for the task.
 void check_plan(const Problem& task, const MapPlan& plan);
 
+/// Whether a coordinate is one of `map_coordinates`, or the mass of a body.
+bool is_map_coordinate(const std::string& name);
+
 /// The actuators whose limits a coordinate multiplies: indices in u. Empty: it is another
 /// coordinate, or there are none.
 std::vector<Eigen::Index> scaled_actuators(const Robot& robot, const std::string& coordinate);

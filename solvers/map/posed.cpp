@@ -1,3 +1,5 @@
+#include "solvers/map/posed.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,9 +12,10 @@
 #include "lib/math/decompositions.h"
 #include "lib/posture/free_pose.h"
 #include "lib/robot/chain.h"
-#include "maxwrench/map.h"
+#include "lib/scenario/static_load.h"
 #include "maxwrench/zonotope.h"
 #include "solvers/map/plan_check.h"
+#include "solvers/map/robot_keys.h"
 #include "solvers/solve/format.h"
 
 namespace maxwrench {
@@ -45,8 +48,7 @@ void set_direction(const Eigen::Vector3d& direction, Problem& task) {
   if (task.scenarios.empty()) return;
   ScenarioWrench& wrench = task.scenarios.wrenches.front();
   wrench.c = wrench.c.norm() * c;
-  const Eigen::VectorXd along_c = task.W_any.transpose() * c;
-  task.scenarios.F = task.W_any * split(along_c).complement;
+  task.scenarios.F = basis_across(task.W_any, c);
 }
 
 void choose_wrench(long number, Problem& task) {
@@ -70,14 +72,25 @@ void scale_limits(const std::vector<Eigen::Index>& actuators, double factor, Pro
   for (ScenarioLimits& limits : task.scenarios.limits) scale(limits.actuation);
 }
 
+/// Sets the wrench of a payload to its weight at the pose.
+void set_weight(Problem& task) {
+  Vector6d& c = task.scenarios.wrenches.front().c;
+  c = payload_wrench(task.robot, *task.scenarios.payload, task.pose.R);
+  task.c = c.stableNormalized();
+}
+
 }  // namespace
+
+Matrix6Xd basis_across(const Matrix6Xd& W, const Vector6d& c) {
+  const Eigen::VectorXd along_c = W.transpose() * c;
+  return W * split(along_c).complement;
+}
 
 std::vector<Eigen::Index> scaled_actuators(const Robot& robot, const std::string& coordinate) {
   std::vector<Eigen::Index> found;
   const auto thrusters = static_cast<Eigen::Index>(robot.thrusters.size());
-  const std::vector<std::string>& known = map_coordinates();
   const bool all = coordinate == "thrust" || coordinate == "torque";
-  if (!all && std::find(known.begin(), known.end(), coordinate) != known.end()) return found;
+  if (!all && is_map_coordinate(coordinate)) return found;
   for (Eigen::Index i = 0; i < robot.actuators(); ++i) {
     const bool such = (coordinate == "thrust") == (i < thrusters);
     if (all ? such : actuator_name(robot, i) == coordinate) found.push_back(i);
@@ -109,6 +122,11 @@ Problem posed(const Problem& task, const std::vector<MapAxis>& over, const Eigen
     const double a = azimuth.value_or(0), e = elevation.value_or(0);
     set_direction({std::cos(e) * std::cos(a), std::cos(e) * std::sin(a), std::sin(e)}, here);
   }
+  for (std::size_t a = 0; a < over.size(); ++a) {
+    if (!unit_of_robot_key(over[a].name)) continue;
+    set_robot_key(over[a].name, at[static_cast<Eigen::Index>(a)], here);
+  }
+  if (here.scenarios.payload) set_weight(here);
   here.start_system.reset();
   return here;
 }

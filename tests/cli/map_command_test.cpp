@@ -69,6 +69,19 @@ TEST(MapCommand, NoticesAnotherValue) {
   EXPECT_EQ(std::count(beta.err.begin(), beta.err.end(), '\n'), 1) << beta.err;
 }
 
+/// The folder of a map over values of the robot: verified, and damaged.
+TEST(MapCommand, ValuesOfTheRobotAreChecked) {
+  const TemporaryFolder folder;
+  const std::string words =
+      "map uvms/lift --over environment.gravity=8:10:2 links.link_4.mass=0:1:2 --budget 50 --out m";
+  EXPECT_EQ(run_maxwrench(words, folder.path()).exit_status, 0);
+  EXPECT_EQ(run_maxwrench("verify m", folder.path()).exit_status, 0);
+  const CsvFile rows =
+      read_csv(folder.path() / "m" / "map.csv.gz", {"environment.gravity", "links.link_4.mass"});
+  ASSERT_EQ(rows.rows.size(), 4u);
+  EXPECT_EQ(*rows.number(1, "links.link_4.mass"), 1);
+}
+
 TEST(MapCommand, SaysWhatChangesNothing) {
   const CommandResult result = run_maxwrench("map uvms/lift --over x=-1:1:2 --budget 20");
   EXPECT_THAT(result.out, HasSubstr("x changes nothing"));
@@ -97,6 +110,11 @@ INSTANTIATE_TEST_SUITE_P(
         BadMap{"uvms/lift --over x=0:1:99999999999999999999", "--over: got 'x=0:1:9999"},
         BadMap{"uvms/lift --over x=1:0:4", "--over: got 'x=1:0:4', expected low < high"},
         BadMap{"uvms/lift --over tilt=0:1:4", "one of the coordinates"},
+        BadMap{"uvms/lift --over environment.water_density=-1:9:2",
+               "--over: got 'environment.water_density=-1:9:2', expected densities of at least 0"},
+        BadMap{"uvms/lift --over environment.density=0:9:2", "environment.water_density"},
+        BadMap{"uvms/lift --over joints.q3_elbow.effort=1:9:2", "or the name of an actuator"},
+        BadMap{"uvms/lift --over environment.current.x=0:0.3:2 --measure ellipsoid", "--measure"},
         BadMap{"uvms/lift --over x=nan:1:4", "finite limits"},
         BadMap{"uvms/lift --over x=0:1", "expected NAME=LOW:HIGH:COUNT"},
         BadMap{"uvms/lift --over x=0:1:2:3", "expected NAME=LOW:HIGH:COUNT"},
