@@ -114,13 +114,36 @@ void add_dependent(const Answer& answer, const std::vector<int>& joints, std::st
   }
 }
 
+/// The direction of the critical wrench of a ball, in world axes.
+std::string words_of_direction(const WrenchBall& ball, const Vector6d& c) {
+  constexpr double kShownPart = 1e-6;  // of the length
+  const bool force = !ball.E.topRows<3>().isZero(0);
+  const Eigen::Vector3d part = force ? c.head<3>() : c.tail<3>();
+  std::vector<double> direction;
+  for (const double x : part.stableNormalized()) {
+    direction.push_back(std::abs(x) < kShownPart ? 0 : x);
+  }
+  return fmt::format("{} along [{:.5g}]", force ? "force" : "torque", fmt::join(direction, ", "));
+}
+
+/// What tells the scenario that decides from the others; empty: there are no others.
+std::string words_of_decider(const ScenarioList& list, const ScenarioChoice& decides) {
+  if (list.empty()) return "";
+  std::string words = list.count() > 1 ? describe(list, decides) : "";
+  if (!list.ball || list.wrenches[static_cast<std::size_t>(decides.wrench)].hold) return words;
+  const std::string direction = words_of_direction(*list.ball, decides.c);
+  return words.empty() ? direction : direction + "; " + words;
+}
+
 /// Adds the value with the wrench, efforts, gradient and residual.
 void add_capability(const Answer& answer, std::string& text) {
   const Problem& problem = *answer.task;
   const Capability& capability = answer.capability;
   add(text, "beta     {:>10} {}\n", decimals(capability.beta), answer.unit);
   const ScenarioList& list = problem.scenarios;
-  if (!list.empty()) add(text, "decides  {}\n", describe(list, capability.decides));
+  if (const std::string words = words_of_decider(list, capability.decides); !words.empty()) {
+    add(text, "decides  {}\n", words);
+  }
   add(text, "beta_linf{:>10} {}\n", decimals(answer.beta_linf), problem.unit());
   if (const std::optional<JointOff> off = find_joint_off(answer)) {
     add(text, "near singular along c: {} {} if {} is off by {} rad\n", decimals(off->beta),

@@ -7,6 +7,8 @@
 #include <sstream>
 #include <string>
 
+#include "maxwrench/load.h"
+#include "maxwrench/solve.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -14,6 +16,7 @@ namespace {
 
 using nlohmann::json;
 using testing::HasSubstr;
+using testing::Not;
 
 TEST(ScenariosCommand, EvalSaysWhatDecides) {
   const CommandResult result = run_maxwrench("eval examples/tasks/turn_both_ways.toml --scenarios");
@@ -26,6 +29,35 @@ TEST(ScenariosCommand, EvalSaysWhatDecides) {
   ASSERT_EQ(object["scenarios"].size(), 2u);
   EXPECT_NEAR(object["scenarios"][0]["high"], object["beta"], 1e-9);
   EXPECT_NEAR(object["critical"][5], object["beta"], 1e-9);
+}
+
+/// Of a ball the direction is named. A task with this direction alone has the same value, and none
+/// of 360 others has less. One scenario has nothing to name.
+TEST(ScenariosCommand, EvalNamesTheDirectionOfABall) {
+  const std::string file = MAXWRENCH_SOURCE_DIR "/examples/tasks/push_anywhere.toml";
+  const std::string out = run_maxwrench("eval " + file).out;
+  const std::string words = "decides  force along [";
+  ASSERT_THAT(out, HasSubstr(words));
+  std::istringstream numbers(out.substr(out.find(words) + words.size()));
+  Eigen::Vector3d direction;
+  char comma = ' ';
+  numbers >> direction[0] >> comma >> direction[1] >> comma >> direction[2];
+  EXPECT_NEAR(direction.norm(), 1, 1e-4);
+  EXPECT_EQ(direction[2], 0);
+  const Problem task = load_problem(file);
+  Problem one = task;
+  one.scenarios = {};
+  const auto value_along = [&](const Eigen::Vector3d& along) {
+    one.c << along.normalized(), 0, 0, 0;
+    return evaluate(one, one.theta_r_default).beta();
+  };
+  const double beta = evaluate(task, task.theta_r_default).beta();
+  EXPECT_NEAR(value_along(direction), beta, 1e-4 * beta);
+  for (int k = 0; k < 360; ++k) {
+    const double angle = k * M_PI / 180;
+    EXPECT_GE(value_along({std::cos(angle), std::sin(angle), 0}), beta * (1 - 1e-9));
+  }
+  EXPECT_THAT(run_maxwrench("eval examples/tasks/carry_steel.toml").out, Not(HasSubstr("decides")));
 }
 
 /// `worst` is what `decides` says in words: its changes are corners of the task's intervals, and a
