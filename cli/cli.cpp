@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -33,6 +34,15 @@ std::string as_option(const CLI::App& app, const std::string& message) {
   return message;
 }
 
+/// The line of the parser. Text that is no number has one that says what was expected.
+std::string complaint_of_parser(const CLI::ParseError& error) {
+  const std::string line = error.what(), unread = "Could not convert: ";
+  const std::size_t equals = line.find(" = ");
+  if (!line.starts_with(unread) || equals == std::string::npos) return line;
+  return fmt::format("{}: got '{}', expected a number",
+                     line.substr(unread.size(), equals - unread.size()), line.substr(equals + 3));
+}
+
 int parse_and_run(int argc, const char* const* argv) {
   CLI::App app("Finds how strongly a kinematically redundant robot can push, lift or twist.",
                "maxwrench");
@@ -57,7 +67,7 @@ int parse_and_run(int argc, const char* const* argv) {
     const bool no_subcommand = app.get_subcommands().empty() && argc > 1;
     complain(no_subcommand
                  ? fmt::format("got '{}', expected a subcommand: see maxwrench --help", argv[1])
-                 : error.what());
+                 : complaint_of_parser(error));
     return kBadInput;
   } catch (const std::invalid_argument& error) {
     throw std::invalid_argument(as_option(app, error.what()));
@@ -116,6 +126,16 @@ std::string reject_seed(const std::string& text) {
   const bool whole = !text.empty() && text.size() < 20 &&
                      text.find_first_not_of("0123456789") == std::string::npos;
   return whole ? "" : "got '" + text + "', expected a whole number from 0 to 10^19 - 1";
+}
+
+std::function<std::string(const std::string&)> whole_number(long low, long high) {
+  return [low, high](const std::string& text) -> std::string {
+    long number = 0;
+    const char* end = text.data() + text.size();
+    const auto [at, error] = std::from_chars(text.data(), end, number);
+    if (error == std::errc() && at == end && number >= low && number <= high) return "";
+    return fmt::format("got '{}', expected a whole number from {} to {}", text, low, high);
+  };
 }
 
 std::string reject_empty(const std::string& text) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -57,6 +58,9 @@ void reject_given(const CLI::App& command, std::initializer_list<const char*> op
 
 /// Empty, or why the text is not a seed of random numbers.
 std::string reject_seed(const std::string& text);
+
+/// Returns a check that rejects what is not a whole number from `low` to `high`.
+std::function<std::string(const std::string&)> whole_number(long low, long high);
 
 /// Empty, or why the text does not name a file or folder.
 std::string reject_empty(const std::string& text);

@@ -185,7 +185,7 @@ void add_verify(CLI::App& app, int& exit_status) {
       .add_option("--sample", options->sample,
                   "number of rows of values.csv.gz, or of cells of a map, to check (0: all)")
       ->capture_default_str()
-      ->check(CLI::NonNegativeNumber);
+      ->check(whole_number(0, 1'000'000'000));
   command.add_option("--seed", options->choice.seed, "seed of the sample")
       ->capture_default_str()
       ->check(reject_seed);

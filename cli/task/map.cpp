@@ -125,7 +125,8 @@ void add_map(CLI::App& app, int& exit_status) {
   command
       .add_option("--refine", options->plan.refine,
                   "how often cells are halved whose corners differ")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(whole_number(0, kMostHalvings));
   command
       .add_option("--tolerance", options->plan.tolerance,
                   "the difference of corners, as a share, above which a cell is halved")

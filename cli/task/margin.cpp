@@ -106,7 +106,8 @@ void add_margin(CLI::App& app, int& exit_status) {
       .add_option("--instants-per-interval", options->instants_per_interval,
                   "with --motion: instants for each row of the table")
       ->needs("--motion")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(whole_number(1, kMostMotionInstants));
   command
       .add_option("--ball", options->ball,
                   "axes of any force or of any torque, such as fx,fy (default: fx,fy,fz)")

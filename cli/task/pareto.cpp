@@ -38,10 +38,6 @@ int print_front(const ParetoOptions& options) {
   }
   for (const Goal& goal : goals) require_static(goal.task, "pareto");
   FrontPlan plan = options.plan;
-  if (plan.points == 0 && !options.compromise) {
-    throw std::invalid_argument(
-        "--points: got 0, expected 2 or more, or --compromise in its place");
-  }
   if (options.compromise || goals.size() > 2) plan.points = 0;
   CtrlC ctrl_c;
   how.interrupted = ctrl_c.asked();
@@ -76,7 +72,8 @@ void add_pareto(CLI::App& app, int& exit_status) {
   command.add_option("--against-wrench", options->against_wrench,
                      "wrench of the other tasks (default: --wrench)");
   command.add_option("--points", options->plan.points, "number of weights of two tasks")
-      ->capture_default_str();
+      ->capture_default_str()
+      ->check(whole_number(2, kMostFrontPoints));
   command.add_flag("--compromise", options->compromise,
                    "only the posture with the best worst share of each task's own best");
   command.add_flag("--certify", options->plan.bound, "also prove a bound for each weight");

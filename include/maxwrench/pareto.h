@@ -46,6 +46,9 @@ struct Front : Verdict {
   double wall_s = 0;     ///< wall time [s]
 };
 
+/// The largest number of weights of a front.
+inline constexpr int kMostFrontPoints = 1000;
+
 /// The options of `pareto`.
 struct FrontPlan {
   int points = 9;      ///< number of weights of two tasks, at least 2; 0: only the compromise

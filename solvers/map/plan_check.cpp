@@ -20,7 +20,6 @@ namespace {
 
 /// [m; rad] Larger offsets would lose precision by rounding.
 constexpr double kFarthestOffset = 1e6;
-constexpr int kMostHalvings = 10;
 /// Postures that show whether a coordinate has an effect, and how many of them must have a value.
 constexpr int kSampledPostures = 200, kFewestValues = 5;
 constexpr double kSameValue = 1e-9;

@@ -4,6 +4,9 @@
 
 namespace maxwrench {
 
+/// The largest number of times that intervals of the grid of a map are halved.
+inline constexpr int kMostHalvings = 10;
+
 /// Throws std::invalid_argument, with one line, unless the plan can be carried out for the task.
 void check_plan(const Problem& task, const MapPlan& plan);
 

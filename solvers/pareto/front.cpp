@@ -17,7 +17,6 @@
 namespace maxwrench {
 namespace {
 
-constexpr int kMostPoints = 1000;
 /// The budget of the second search of a weight, as a divisor of that of the first.
 constexpr long kAgain = 4;
 /// Weights below this share of a value are zero: cos of 90 degrees is not exactly.
@@ -268,9 +267,9 @@ Front pareto(const std::vector<Goal>& goals, const FrontPlan& plan, const Option
   }
   for (const Goal& goal : goals) require_alike(goals.front().task, goal.task);
   const bool front = plan.points != 0;
-  if (plan.points < 0 || plan.points == 1 || plan.points > kMostPoints) {
-    throw std::invalid_argument(
-        fmt::format("points: got {}, expected 2 to {}, or 0 for none", plan.points, kMostPoints));
+  if (plan.points < 0 || plan.points == 1 || plan.points > kMostFrontPoints) {
+    throw std::invalid_argument(fmt::format("points: got {}, expected 2 to {}, or 0 for none",
+                                            plan.points, kMostFrontPoints));
   }
   if (front && goals.size() > 2) {
     throw std::invalid_argument(

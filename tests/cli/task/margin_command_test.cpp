@@ -106,7 +106,7 @@ INSTANTIATE_TEST_SUITE_P(
                   "--theta-r: got an invalid trajectory"},
         BadMargin{"uvms/valve_trajectory --motion examples/motions/unfold_while_turning.csv "
                   "--instants-per-interval 0",
-                  "instants_per_interval: got 0"},
+                  "--instants-per-interval: got '0', expected a whole number from 1 to"},
         BadMargin{"examples/tasks/turn_guaranteed.toml --motion "
                   "examples/motions/unfold_while_turning.csv",
                   "uncertainty: got uncertain loads"},
