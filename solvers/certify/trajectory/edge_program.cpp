@@ -16,6 +16,10 @@ constexpr double kMostOfRange = 0.25;
 constexpr double kEqualWrench = 1e-9;
 /// A wrench that varies along a path must be larger by this share.
 constexpr double kWorthVarying = 1e-5;
+/// Efforts without a limit of their rates change by at most the first of these shares of their
+/// range from knot to knot, or by the next one if it costs more than `kWorthJumping` of the value.
+constexpr double kSteadyShares[] = {1, 4, 16};
+constexpr double kWorthJumping = 1e-5;
 
 }  // namespace
 
@@ -164,10 +168,30 @@ EdgeEfforts EdgeProgram::solve_program() {
   return read(equal.status == Status::kOptimal && equal.value >= enough ? equal : solution);
 }
 
+/// In an impulse only the peak has an objective. Without rates the wrench beside it could be any
+/// other one, and u(t) would leave its limits by O(H) between them.
+EdgeEfforts EdgeProgram::solve_steadily() {
+  program_ = loose_;
+  EdgeEfforts loose = solve_program();
+  if (!problem_.motion->impulse || loose.status != Status::kOptimal) return loose;
+  const Zonotope& set = problem_.robot.actuation;
+  const Eigen::VectorXd step = (set.u_max - set.u_min) / parts_;
+  for (const double share : kSteadyShares) {
+    const Eigen::MatrixXd most = (share * step).replicate(1, loose_.du_max.cols());
+    program_.du_max = (loose_.du_max.array() < kInfinity).select(loose_.du_max, most);
+    if (program_.du_max == loose_.du_max) break;
+    EdgeEfforts steady = solve_program();
+    const double enough = loose.value - kWorthJumping * (1 + std::abs(loose.value));
+    if (steady.status != Status::kOptimal || steady.value < enough) continue;
+    loose_.du_max = program_.du_max;
+    return steady;
+  }
+  return loose;
+}
+
 EdgeEfforts EdgeProgram::solve(double slack) {
   if (slack >= 0 && off_.size() == 0) {
-    program_ = loose_;
-    const EdgeEfforts loose = solve_program();
+    const EdgeEfforts loose = solve_steadily();
     const auto edges = static_cast<Eigen::Index>(instants_.size());
     measure_bends(loose.w.size() > 0 ? loose.w : Eigen::VectorXd::Constant(edges, loose.value));
   }

@@ -43,6 +43,7 @@ class EdgeProgram {
   void tighten(double slack);
   void measure_bends(const Eigen::VectorXd& w);
   EdgeEfforts solve_program();
+  EdgeEfforts solve_steadily();
   EdgeEfforts read(const TrajectorySolution& solution) const;
   bool exerts_equally(const TrajectorySolution& solution) const;
 

@@ -5,6 +5,7 @@
 #include "maxwrench/load.h"
 #include "tests/support/trajectory_proofs.h"
 #include "verify/trajectory/trajectory_model.h"
+#include "verify/trajectory/verify_trajectory.h"
 
 namespace maxwrench {
 namespace {
@@ -135,6 +136,40 @@ TEST(TrajectoryProof, SLOW_SolvesAProvenImpulse) {
   EXPECT_LE(proof.guaranteed, between);
   EXPECT_GE(proof.guaranteed, between * (1 - 5e-4));
   EXPECT_GT(proof.guaranteed, 39.7);
+}
+
+/// Without effort rates the wrench beside the peak of an impulse could be any, and efforts between
+/// the edges would leave their limits by O(H). Limits of joints are a little wider, as the shipped
+/// impulse keeps them at its instants only.
+TEST(TrajectoryProof, LosesLittleOfAnImpulseWithoutEffortRates) {
+  for (const std::string name : {"uvms/valve_impulse", "uvms/lift_impulse"}) {
+    for (const Start start : {Start::kStatic, Start::kRest, Start::kFree}) {
+      Problem problem = load_problem(name);
+      problem.motion->rates = false;
+      problem.motion->start = start;
+      for (Joint& joint : problem.robot.joints) joint.velocity_max *= 1.01;
+      problem.theta_r_min.array() -= 0.01;
+      problem.theta_r_max.array() += 0.01;
+      Eigen::MatrixXd knots = problem.motion->theta_0.transpose().replicate(problem.motion->k, 1);
+      if (name == "uvms/valve_impulse") {
+        knots = shipped_knots("uvms_valve_impulse_spline", problem);
+      } else {
+        // A clamped spline without acceleration at the start: slopes 0, 0.06, 0.21, 0, 0.
+        knots.col(2) += Eigen::Vector4d(0.02, 0.15, 0.32, 0.22);
+      }
+      const TrajectoryProof proof = certify_trajectory(problem, knots);
+      ASSERT_EQ(proof.status, Status::kProven) << name << ' ' << proof.reason.str();
+      const double between = proof.answer.trajectory.value_between_knots;
+      EXPECT_LE(proof.guaranteed, between) << name;
+      EXPECT_GE(proof.guaranteed, between * (1 - 5e-4)) << name << to_string(start);
+      // The check, which shares no code with the search for efforts, rejects a little more.
+      TrajectoryCertificate claim = certified(problem, knots, proof.parts);
+      EXPECT_TRUE(verify(problem, claim, 1).verified()) << name;
+      claim.value *= 1 + 1e-3;
+      claim.w[Eigen::Index{claim.t_h} * claim.parts] = claim.value;
+      EXPECT_FALSE(verify(problem, claim, 1).verified()) << name;
+    }
+  }
 }
 
 /// Where effort rates bind, the wrench may vary: no less is proven of the least than at 25 instants
