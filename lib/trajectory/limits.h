@@ -39,7 +39,8 @@ DependentRows make_dependent_rows(const Problem& problem, const MotionEvaluator&
                                   const std::vector<Instant>& instants,
                                   const std::vector<MotionSlopes>& slopes);
 
-/// The limits of a task on the rates of theta_r and on theta_r between knots.
+/// The limits of a task on the rates of theta_r and on theta_r between knots. Each row is of one
+/// coordinate. All coordinates have equally many rows, one coordinate after the other.
 KnotRows knot_rows(const Problem& problem, const MotionTask& task, const SchemeMaps& maps);
 
 }  // namespace maxwrench

@@ -59,7 +59,7 @@ Eigen::VectorXd KnotDrawing::kick(Random random, double reach, bool alike) const
 
 Eigen::VectorXd KnotDrawing::moved(Eigen::VectorXd offset) const {
   if (equations_.rows() > 0) offset -= inverse_ * (equations_ * offset);
-  return (start_ + share(offset) * offset)
+  return (start_ + offset.cwiseProduct(shares(offset).replicate(knots_, 1)))
       .cwiseMax(objective_.lower())
       .cwiseMin(objective_.upper());
 }
@@ -81,16 +81,20 @@ Eigen::VectorXd KnotDrawing::bump(Random& random, double reach) const {
                    .cwiseMin(objective_.upper() - start_));
 }
 
-/// The share of a step from the start that the rows permit.
-double KnotDrawing::share(const Eigen::VectorXd& offset) const {
+/// The shares of a step from the start that the rows permit, of each coordinate. Where all knots
+/// move alike, and where both ends are given, the least one counts for all: the shape stays.
+Eigen::VectorXd KnotDrawing::shares(const Eigen::VectorXd& offset) const {
+  const Eigen::Index r = start_.size() / knots_, each = rows_.r_min.size() / r;
   const Eigen::VectorXd at = rows_.R * start_, moved = rows_.R * offset;
-  double share = 1;
+  Eigen::VectorXd shares = Eigen::VectorXd::Ones(r);
   for (Eigen::Index row = 0; row < at.size(); ++row) {
     if (std::abs(moved[row]) < 1e-12) continue;
     const double room = moved[row] > 0 ? rows_.r_max[row] - at[row] : rows_.r_min[row] - at[row];
+    double& share = shares[row / each];
     share = std::min(share, std::max(0.0, room / moved[row]));
   }
-  return share;
+  if (alike_ || between_) shares.setConstant(shares.minCoeff());
+  return shares;
 }
 
 }  // namespace maxwrench

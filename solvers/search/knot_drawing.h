@@ -21,12 +21,14 @@ class KnotDrawing {
   /// knots.
   Eigen::VectorXd kick(Random random, double reach, bool alike) const;
 
-  /// The table after the largest share of a step, 1 at most, that the rows permit.
+  /// The table after the largest share of a step, 1 at most, that the rows permit. In an impulse
+  /// each coordinate has a share of its own, as each row is of one coordinate: the slowest joint
+  /// does not hold the others back, and a joint at its limit does not stop them.
   Eigen::VectorXd moved(Eigen::VectorXd offset) const;
 
  private:
   Eigen::VectorXd bump(Random& random, double reach) const;
-  double share(const Eigen::VectorXd& offset) const;
+  Eigen::VectorXd shares(const Eigen::VectorXd& offset) const;
 
   const Objective& objective_;
   const KnotRows& rows_;

@@ -25,6 +25,17 @@ MatrixXd offsets(const Candidate& start, const SearchOptions& options, int knots
   return unstacked(start.theta_r - options.start, knots);
 }
 
+/// Whether a row of this coordinate is at its limit. The rows come coordinate by coordinate.
+bool is_stopped(const KnotRows& rows, const VectorXd& x, Eigen::Index coordinate, Eigen::Index r) {
+  const Eigen::Index each = rows.r_min.size() / r;
+  const VectorXd at = (rows.R * x).segment(coordinate * each, each);
+  const auto low = rows.r_min.segment(coordinate * each, each);
+  const auto high = rows.r_max.segment(coordinate * each, each);
+  // Equations are always at theirs.
+  const auto bounds = (high - low).array() > 0;
+  return (bounds && ((at - low).array() < 1e-9 || (high - at).array() < 1e-9)).any();
+}
+
 class KnotStartsOf : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Tasks, KnotStartsOf,
                          testing::Values("planar/trajectory", "uvms/valve_trajectory",
@@ -70,6 +81,39 @@ TEST_P(KnotStartsOf, MoveAlikeWhereTheyMay) {
     differ = differ || (moved.rowwise() - moved.row(0)).norm() > 1e-9;
   }
   EXPECT_EQ(differ, problem.motion->impulse);
+}
+
+/// In the time of an impulse no joint moves as far as its limits, so the tables that are drawn move
+/// most of them as fast as they can somewhere, not only the one that has the least time.
+TEST(KnotStarts, MoveEachJointOfAnImpulseAsFarAsItsOwnLimits) {
+  Problem problem = load_problem("uvms/valve_impulse");
+  problem.motion->T = 1.2;
+  const auto objective = trajectories_to_draw(problem);
+  const KnotRows& rows = objective->trajectories().rows();
+  const int r = problem.redundancy();
+  for (const std::uint64_t seed : {1U, 2U, 3U, 4U}) {
+    SearchOptions options = draw_options(problem, 300);
+    options.seed = seed;
+    const Drawn drawn(draw_knot_starts, *objective, options);
+    int joints = 0, stopped = 0;
+    for (const Candidate& start : drawn.starts) {
+      if (start.theta_r == options.start) continue;
+      for (int j = 0; j < r; ++j) stopped += is_stopped(rows, start.theta_r, j, r) ? 1 : 0;
+      joints += r;
+    }
+    ASSERT_GT(joints, 5 * r);
+    EXPECT_GT(stopped, 0.9 * joints) << seed;
+    // From there half of all steps of a joint are against a limit, which stops this joint only.
+    int moved = 0, all = 0;
+    for (const Candidate& at : drawn.starts) {
+      Part found;
+      for (const Candidate& kick : kick_knots(*objective, options, at, 0, 4, quiet_run(), found)) {
+        moved += (kick.theta_r - at.theta_r).norm() > 1e-6 ? 1 : 0;
+        ++all;
+      }
+    }
+    EXPECT_GT(moved, 0.6 * all) << seed;
+  }
 }
 
 TEST_P(KnotStartsOf, SLOW_AreTheSameAtAnyThreadCount) {
