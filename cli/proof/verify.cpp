@@ -108,7 +108,8 @@ std::filesystem::path map_folder(const std::string& file) {
 int check_map_folder(const std::filesystem::path& folder, const VerifyOptions& options) {
   if (!holds_map(folder)) {
     throw std::invalid_argument(folder.string() +
-                                ": got a folder without map.json, expected one of 'map --out'");
+                                ": got a folder without map.json, expected the folder of 'map "
+                                "--out', or a file: a certificate or the values.csv.gz of 'run'");
   }
   const std::string& other = options.choice.problem;
   const MapCheck check = check_map(

@@ -72,6 +72,14 @@ TEST_F(VerifyCommand, RejectsOtherFilesInOneLine) {
   rejected(file, "damaged");
 }
 
+TEST_F(VerifyCommand, SaysThatAFolderIsNoCertificate) {
+  const CommandResult result = run_maxwrench("verify " + std::string(folder_.path()));
+  EXPECT_EQ(result.exit_status, 2);
+  EXPECT_EQ(result.err, "maxwrench: " + std::string(folder_.path()) +
+                            ": got a folder without map.json, expected the folder of 'map --out', "
+                            "or a file: a certificate or the values.csv.gz of 'run'\n");
+}
+
 /// A certificate of nothing is none.
 TEST(CertifyCommand, WritesNoCertificateWithoutABound) {
   const TemporaryFolder folder;
