@@ -211,10 +211,12 @@ end
 
 local function code(name) return "\\texttt{" .. name:gsub("_", "\\_") .. "}" end
 
--- The rows of the last table of search_comparison.txt, each a list of cells.
-local function race_rows()
+local static_race = "search_comparison.txt"
+
+-- The rows of the last table of a race, each a list of cells. file: nil is the race on static tasks.
+local function race_rows(file)
   local rows, heads = {}, nil
-  for _, line in ipairs(lines_of("search_comparison.txt")) do
+  for _, line in ipairs(lines_of(file or static_race)) do
     if line:sub(1, 1) == "|" then
       local cells = {}
       for cell in line:gmatch("|%s*([^|]-)%s*%f[|]") do cells[#cells + 1] = cell end
@@ -225,12 +227,17 @@ local function race_rows()
       end
     end
   end
-  if not heads or #heads < 8 then fail("results/search_comparison.txt: no table of all searches") end
+  if not heads or #heads < 8 then fail("results/" .. (file or static_race) .. ": no table of all searches") end
   return heads, rows
 end
 
-function results.race_table()
-  local heads, rows = race_rows()
+-- Without a file, all searches of the race on static tasks; else those of that race of whose runs the given share [%] comes within 10 %.
+function results.race_table(file, share)
+  local heads, all = race_rows(file)
+  local rows = {}
+  for _, cells in ipairs(all) do
+    if not file or tonumber(cells[4]) >= share then rows[#rows + 1] = cells end
+  end
   tex.sprint("\\begin{tabular}{@{}l*{" .. #heads - 1 .. "}{r}@{}}\\toprule")
   local head = {"search"}
   for i = 2, #heads do
@@ -251,22 +258,22 @@ function results.race_table()
   tex.sprint("\\bottomrule\\end{tabular}")
 end
 
--- A column of the table of all searches.
-function claims.race(search, column)
-  local heads, rows = race_rows()
+-- A column of the table of all searches of a race.
+function claims.race(search, column, file)
+  local heads, rows = race_rows(file)
   for _, cells in ipairs(rows) do
     if cells[1]:gsub("[*`]", "") == search then
       for i, head in ipairs(heads) do
         if head == column then return tonumber(cells[i]) or math.huge end
       end
-      fail("results/search_comparison.txt: no column '" .. column .. "'")
+      fail("results/" .. (file or static_race) .. ": no column '" .. column .. "'")
     end
   end
-  fail("results/search_comparison.txt: no search '" .. search .. "'")
+  fail("results/" .. (file or static_race) .. ": no search '" .. search .. "'")
 end
 
-function claims.searches()
-  local _, rows = race_rows()
+function claims.searches(file)
+  local _, rows = race_rows(file)
   return #rows
 end
 
@@ -288,8 +295,8 @@ function claims.lines(file, words)
 end
 
 -- How many searches of the table satisfy the test.
-function claims.count(test)
-  local _, rows = race_rows()
+function claims.count(test, file)
+  local _, rows = race_rows(file)
   local n = 0
   for _, cells in ipairs(rows) do
     if test(cells[1]:gsub("[*`]", "")) then n = n + 1 end
@@ -297,11 +304,11 @@ function claims.count(test)
   return n
 end
 
--- The problems of the race, in order.
+-- The static tasks of the race, in order.
 local function problems()
   local names, seen = {}, {}
   for _, row in ipairs(table_of("search_comparison.csv").rows) do
-    if not seen[row.problem] then
+    if row.scheme == "" and not seen[row.problem] then
       seen[row.problem] = true
       names[#names + 1] = row.problem
     end

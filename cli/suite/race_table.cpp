@@ -55,7 +55,7 @@ std::string contender_line(const Comparison& comparison, const Contender& conten
   const Quartiles ms = quartiles(std::move(seconds));
   const bool marked = contender.search == comparison.default_search;
   std::string text = fmt::format(
-      "{:<17}{:<14} {:>6} {:>3} of {:<3}{}  {:>7} {:>7} {:>7} {:>8}",
+      "{:<20}{:<14} {:>6} {:>3} of {:<3}{}  {:>7} {:>7} {:>7} {:>8}",
       contender.search + (marked ? "*" : ""), contender.solver, contender.budget,
       reached(runs, target), runs.size(), expected_cells(comparison, contender), brief(ms.low),
       brief(ms.median), brief(ms.high),
@@ -182,9 +182,9 @@ std::string race_table(const Comparison& comparison) {
                     : fmt::format("the plain method, {}, never reaches 0.1 %\n", reference->search);
   }
   text += fmt::format(
-      "{:50}---- expected ms to a target ----  - expected evaluations to target -"
+      "{:53}---- expected ms to a target ----  - expected evaluations to target -"
       " ---- ms to 0.1 % ----   median{}{}\n"
-      "{:<17}{:<14} budget to 0.1 %    10 %     1 %   0.1 %  0.01 %     10 %     1 %   0.1 %"
+      "{:<20}{:<14} budget to 0.1 %    10 %     1 %   0.1 %  0.01 %     10 %     1 %   0.1 %"
       "  0.01 %  quarter  median quarter  below %{}{}\n",
       "", comparison.in_time ? "     median" : "", reference ? "  of the" : "", "search", "solver",
       comparison.in_time ? "    between" : "", reference ? "   plain" : "");
