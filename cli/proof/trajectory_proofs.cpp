@@ -104,13 +104,22 @@ int certify_trajectory(const Problem& problem, const Eigen::MatrixXd& knots, con
 }
 
 int report_proven(const TrajectoryProof& proof, bool json) {
+  const bool another = std::isfinite(proof.searched);
   if (json) {
     auto object = nlohmann::ordered_json::parse(to_json(proof.answer));
     object["guaranteed"] = known(proof.status == Status::kProven, proof.guaranteed);
     object["proof"] = to_object(proof);
+    object["proof"]["searched"] = known(another, proof.searched);
+    object["proof"]["rejection"] = proof.rejection;
+    object["proof"]["held"] = proof.held;
     print_json(object);
   } else {
     fmt::print("{}", summary(proof.answer));
+    if (another) {
+      fmt::print("searched   {:>8.5f} {}: another trajectory; {}\n", proof.searched,
+                 proof.answer.unit, proof.rejection);
+    }
+    if (proof.held) fmt::print("held       the default posture: more is proven of no other\n");
     fmt::print("{}{}\n", guaranteed_line(proof),
                proof.status == Status::kProven ? "proven" : "not proven: " + verdict_words(proof));
   }

@@ -43,6 +43,12 @@ struct TrajectoryProof : Verdict {
   double clearance = kInfinity;  ///< no bodies are closer than their margin plus this [m]
   double seconds = 0;            ///< wall time, without that of `answer` [s]
   std::string certificate;  ///< the contents of a certificate file. Empty unless it was requested
+  /// Of `solve_proven`: value between knots of what the first search found, if another trajectory is
+  /// the proven one [unit of the answer]; NaN: it is the proven one.
+  double searched = std::numeric_limits<double>::quiet_NaN();
+  std::string rejection;  ///< why the trajectory of `searched` is not proven
+  /// Of `solve_proven`: the trajectory is the default posture, held: more is proven of no other.
+  bool held = false;
 };
 
 /// Proves that a trajectory exerts a wrench at every instant, not only at samples.
@@ -68,8 +74,8 @@ TrajectoryProof certify_trajectory(const Problem& task, const Eigen::MatrixXd& k
 ///
 /// The best trajectory of `solve` may exceed a limit between its instants, or need efforts that
 /// change faster there than their rates allow. The search then continues from it with tighter
-/// limits and more instants. If more is proven of the default posture, held throughout, the proof
-/// is that of this trajectory.
+/// limits and more instants; `searched` and `rejection` tell of the first. If more is proven of the
+/// default posture, held throughout, the proof is that of this trajectory, and `held` is true.
 ///
 /// @return the proof; its answer counts the evaluations and the time of all searches
 TrajectoryProof solve_proven(const Problem& task, const Options& options = {},

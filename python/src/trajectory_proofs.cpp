@@ -154,6 +154,16 @@ void add_trajectory_proofs(py::module_& m) {
       .def_property_readonly(
           "scenarios", [](const PyTrajectoryProof& p) { return p.proof.scenarios; },
           "The number of proven scenarios of a list; 0: there is no list.")
+      .def_property_readonly(
+          "searched", [](const PyTrajectoryProof& p) { return p.proof.searched; },
+          "What the first search found, between knots, if another trajectory is the proven one; NaN: "
+          "it is the proven one, or it was given.")
+      .def_property_readonly(
+          "rejection", [](const PyTrajectoryProof& p) { return p.proof.rejection; },
+          "Why the trajectory of ``searched`` is not proven; empty if there is none.")
+      .def_property_readonly(
+          "held", [](const PyTrajectoryProof& p) { return p.proof.held; },
+          "Whether the trajectory is the default posture, held, because more was proven of no other.")
       .def_readonly("bound", &PyTrajectoryProof::bound,
                     "What no trajectory of the task exceeds; NaN: it was given, or there is none.")
       .def_property_readonly("gap", &PyTrajectoryProof::gap,

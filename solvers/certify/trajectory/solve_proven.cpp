@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "maxwrench/batch.h"
@@ -182,6 +185,24 @@ void take_search(const Answer& found, Answer& answer) {
   answer.wall_s += found.wall_s;
 }
 
+/// What a proof says of the trajectory that the first search found, for the proof of another one.
+struct FirstTrajectory {
+  explicit FirstTrajectory(const TrajectoryProof& proof)
+      : value(proof.answer.trajectory.value_between_knots) {
+    rejection = proof.status == Status::kProven
+                    ? fmt::format("only {:.5f} {} is proven of it", proof.guaranteed,
+                                  proof.answer.unit)
+                    : fmt::format("{}: {}", to_string(proof.status), proof.reason.str());
+  }
+  void tell(TrajectoryProof& proof) const {
+    proof.searched = value;
+    proof.rejection = rejection;
+  }
+
+  double value;  ///< between knots
+  std::string rejection;
+};
+
 }  // namespace
 
 TrajectoryProof solve_proven(const Problem& task, const Options& options,
@@ -201,15 +222,18 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
   }
   Eigen::MatrixXd knots = found.trajectory.knots;
   double slower = 0;
+  std::optional<FirstTrajectory> first;
   int& instants = tight.motion->instants_per_interval;
   for (int round = 1;; ++round) {
     TrajectoryProof next = certify_trajectory(task, knots, proof_options, how);
     const Status status = next.status;
+    if (round == 1) first.emplace(next);
     const bool enough =
         status == Status::kProven && next.guaranteed >= next.answer.beta() * (1 - kLossOfInstants);
     if (proof.status != Status::kProven ||
         (status == Status::kProven && next.guaranteed > proof.guaranteed)) {
       proof = std::move(next);
+      if (round > 1) first->tell(proof);
     }
     if (enough || round == kMostProofs) break;
     if (options.interrupted && options.interrupted()) break;
@@ -242,6 +266,8 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
     return proof;
   }
   take_search(found, still.answer);
+  first->tell(still);
+  still.held = true;
   still.answer.evaluations = proof.answer.evaluations;
   still.answer.wall_s = proof.answer.wall_s;
   return still;
