@@ -192,7 +192,7 @@ struct FirstTrajectory {
     rejection = proof.status == Status::kProven
                     ? fmt::format("only {:.5f} {} is proven of it", proof.guaranteed,
                                   proof.answer.unit)
-                    : fmt::format("{}: {}", to_string(proof.status), proof.reason.str());
+                    : fmt::format("{}: {}", to_string(proof.status), proof.reason.c_str());
   }
   void tell(TrajectoryProof& proof) const {
     proof.searched = value;

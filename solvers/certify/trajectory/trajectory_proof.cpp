@@ -119,7 +119,12 @@ class TrajectoryProver {
   bool prove_with(EdgeProgram& program, int parts, double most) {
     for (const double slack : kSlacks) {
       const EdgeEfforts efforts = program.solve(slack);
-      if (efforts.status != Status::kOptimal) break;
+      if (efforts.status != Status::kOptimal) {
+        if (proof_.status != Status::kProven && proof_.reason.empty()) {
+          refuse(Status::kNumericalError, "no efforts have the margin that a proof needs", -1);
+        }
+        break;
+      }
       claim_.parts = parts;
       claim_.y = efforts.y;
       claim_.w = efforts.w;

@@ -136,6 +136,9 @@ TEST(TrajectoryProof, SLOW_SolvesAProvenImpulse) {
   EXPECT_LE(proof.guaranteed, between);
   EXPECT_GE(proof.guaranteed, between * (1 - 5e-4));
   EXPECT_GT(proof.guaranteed, 39.7);
+  EXPECT_FALSE(proof.held);
+  EXPECT_GT(proof.searched, 39.7);
+  EXPECT_NE(proof.rejection.find("q3_elbow moves at 0.50"), std::string::npos) << proof.rejection;
 }
 
 /// Without effort rates the wrench beside the peak of an impulse could be any, and efforts between
@@ -215,6 +218,38 @@ TEST(TrajectoryProof, SLOW_SolvesAProvenImpulseInAHurry) {
   EXPECT_GE(proof.answer.beta(), proof.guaranteed);
   EXPECT_LE(proof.answer.beta(), proof.guaranteed * (1 + 1e-3));
   EXPECT_GE(proof.answer.evaluations, searched.evaluations);
+}
+
+/// With 100 evaluations the search ends at a trajectory that leaves the limits of the wrist between
+/// its instants, and so do those from there. The default posture, held, is worth a little less.
+TEST(TrajectoryProof, SaysWhereAPostureIsHeldInsteadOfWhatWasFound) {
+  Problem problem = load_problem("uvms/valve_impulse");
+  problem.motion->T = 100;
+  Options options;
+  options.budget = 100;
+  const Answer searched = solve(problem, options);
+  const TrajectoryProof refused = certify_trajectory(problem, searched.trajectory.knots);
+  ASSERT_EQ(refused.status, Status::kInvalidPosture);
+  const TrajectoryProof proof = solve_proven(problem, options);
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  EXPECT_TRUE(proof.held);
+  EXPECT_EQ(proof.answer.trajectory.knots,
+            problem.theta_r_default.transpose().replicate(problem.motion->k, 1));
+  EXPECT_EQ(proof.searched, searched.trajectory.value_between_knots);
+  EXPECT_GT(proof.searched, proof.guaranteed);
+  EXPECT_EQ(proof.rejection, "invalid_posture: " + refused.reason.str());
+}
+
+/// The trajectory of the search is proven: there is no other.
+TEST(TrajectoryProof, HasNothingToSayOfTheSearchWhereItsTrajectoryIsProven) {
+  const Problem problem = load_problem("uvms/valve_trajectory");
+  Options options;
+  options.budget = 60;
+  const TrajectoryProof proof = solve_proven(problem, options);
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  EXPECT_FALSE(proof.held);
+  EXPECT_TRUE(std::isnan(proof.searched));
+  EXPECT_EQ(proof.rejection, "");
 }
 
 TEST(TrajectoryProof, RejectsOtherTasksAndChoices) {
