@@ -111,6 +111,11 @@ def test_a_trajectory_is_found_and_proven():
     assert proof.gap == pytest.approx((proof.bound - proof.answer.beta) / proof.answer.beta)
     given = mw.certify("planar/trajectory", [0.3, 0.1])
     assert np.isnan(given.bound) and np.isnan(given.gap)
+    assert np.isnan(given.searched) and given.rejection == "" and not given.held
+    first = mw.solve("planar/trajectory", budget=200, seed=2)
+    refused = mw.certify("planar/trajectory", first.theta_r)
+    assert proof.searched == first.to_dict()["value_between_knots"] and not proof.held
+    assert refused.status != "proven" and proof.rejection == f"{refused.status}: {refused.reason}"
 
 
 def test_an_unprovable_trajectory_says_when(tmp_path, rejects):
