@@ -12,9 +12,18 @@ void spread_out(const LoopPart& part, const Eigen::VectorXd& values, Eigen::Vect
     Eigen::Map<Eigen::MatrixXd>(all.data(), size, all.size() / size).colwise() += values;
     return;
   }
+  double* at = all.data();
   for (Eigen::Index first = 0; first < all.size(); first += size * repeat) {
     for (Eigen::Index i = 0; i < size; ++i) {
-      all.segment(first + i * repeat, repeat).array() += values[i];
+      const double value = values[i];
+      if (repeat == 3) {  // one coordinate: too short for vector code of any length
+        at[0] += value;
+        at[1] += value;
+        at[2] += value;
+      } else {
+        for (Eigen::Index k = 0; k < repeat; ++k) at[k] += value;
+      }
+      at += repeat;
     }
   }
 }
