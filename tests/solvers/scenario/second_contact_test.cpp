@@ -69,10 +69,10 @@ Problem trimmed(Problem task, double more) {
   return task;
 }
 
-const std::vector<std::string> kThrusters = {
-    "front_right_horizontal", "front_left_horizontal", "rear_right_horizontal",
-    "rear_left_horizontal",   "front_right_vertical",  "front_left_vertical",
-    "rear_right_vertical",    "rear_left_vertical"};
+const std::vector<std::string> kThrusters = {"front_right_horizontal", "front_left_horizontal",
+                                             "rear_right_horizontal",  "rear_left_horizontal",
+                                             "front_right_vertical",   "front_left_vertical",
+                                             "rear_right_vertical",    "rear_left_vertical"};
 
 std::vector<OrdinaryTask> two_wrenches(const Problem& plain) {
   Vector6d first = Vector6d::Unit(5), second;
@@ -125,7 +125,7 @@ struct ContactList {
   const char* file;
   std::string wrench, tables;
   std::vector<OrdinaryTask> (*scenarios)(const Problem& plain);
-  bool hold = false;       ///< whether the list holds without a wrench as well
+  bool hold = false;           ///< whether the list holds without a wrench as well
   bool requires_push = false;  ///< whether factors are not negative
 };
 void PrintTo(const ContactList& list, std::ostream* out) { *out << list.name; }
@@ -194,8 +194,7 @@ class SecondContactList : public testing::TestWithParam<ContactList> {
 /// The value is the least of the upper ends of ordinary tasks if it is a factor of all of them.
 TEST_P(SecondContactList, AgreesWithOrdinaryTasks) {
   const std::vector<OrdinaryTask> ordinary = list_.scenarios(plain_);
-  const std::vector<std::string> solvers =
-      supported_solvers(task_, Case().measure, Wrench::kPure);
+  const std::vector<std::string> solvers = supported_solvers(task_, Case().measure, Wrench::kPure);
   Random random(7);
   int values = 0;
   for (int i = 0; i < samples(12); ++i) {
@@ -288,8 +287,7 @@ INSTANTIATE_TEST_SUITE_P(All, SecondContactList, testing::ValuesIn(kContactLists
 TEST(SecondContactScenarios, OfAnyWrenchesAreOrdinaryTasks) {
   const Problem task =
       second_contact_task(kTwoArms, kTurn, "[loss]\nany = 1\nactuators = ['thrusters']\n");
-  const std::vector<OrdinaryTask> ordinary =
-      any_dead(second_contact_task(kTwoArms, kTurn, ""));
+  const std::vector<OrdinaryTask> ordinary = any_dead(second_contact_task(kTwoArms, kTurn, ""));
   Options options;
   options.wrench = Wrench::kAny;
   options.check_collision = false;

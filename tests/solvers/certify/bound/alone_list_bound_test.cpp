@@ -246,7 +246,7 @@ TEST(AloneListBound, RejectsWhatItDoesNotBound) {
     const Problem task = second_contact_task("bar_wall.toml", wrench, tables);
     return rejection_of([&] { make_capability_bound(task, "linf_polytope", Wrench::kPure); });
   };
-  EXPECT_NE(rejects_at_wall(kTurn, "[loss]\nany = 2\n")
+  EXPECT_NE(rejects_at_wall(kTurn, "[loss]\nany = 3\n")
                 .find("forces of a second contact with many scenarios, expected at most 64"),
             std::string::npos);
   EXPECT_NE(rejects_at_wall("ball = { axes = [\"fx\", \"fy\"], radius = 1 }", "")
