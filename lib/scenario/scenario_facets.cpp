@@ -12,7 +12,9 @@ constexpr double kRowRounding = 1e-9;
 
 }  // namespace
 
-bool ScenarioFacets::supports(const Problem& problem) { return problem.robot.actuation.has_facets; }
+bool ScenarioFacets::supports(const Problem& problem) {
+  return problem.robot.actuation.has_facets && problem.contact_columns() == 0;
+}
 
 ScenarioFacets::ScenarioFacets(const Problem& problem)
     : problem_(problem),

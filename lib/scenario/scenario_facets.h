@@ -24,7 +24,7 @@ class ScenarioFacets {
   explicit ScenarioFacets(const Problem& problem);
   explicit ScenarioFacets(const Problem&& problem) = delete;
 
-  /// Whether the actuators of the task have facets.
+  /// Whether the actuators of the task have facets, and no second contact exerts forces.
   static bool supports(const Problem& problem);
 
   /// Computes both ends. Allocates nothing after the first call.

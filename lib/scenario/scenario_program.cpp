@@ -56,12 +56,17 @@ ScenarioProgram::ScenarioProgram(const Problem& problem, Wrench wrench, int axes
       first_(std::max(axes, 1)),
       axes_(axes > 0),
       F_(wrench == Wrench::kAny ? problem.scenarios.F : Matrix6Xd(6, 0)) {
-  const Eigen::Index k = first_ + F_.cols(), n = problem.robot.velocities();
-  program_.W.setZero(6, k);
-  program_.C_2.resize(6, 0);
+  const Eigen::Index own = first_ + F_.cols(), l = problem.contact_columns(), k = own + l;
+  const Eigen::Index n = problem.robot.velocities();
+  program_.W.setZero(6, own);
+  program_.C_2.setZero(6, l);
   program_.c_w = Eigen::VectorXd::Unit(k, 0);
   program_.w_min = Eigen::VectorXd::Constant(k, -kInfinity);
   program_.w_max = -program_.w_min;
+  if (l > 0) {
+    program_.w_min.tail(l) = problem.contact->w_min;
+    program_.w_max.tail(l) = problem.contact->w_max;
+  }
   program_.JtW.setZero(n, k);
   program_.tau_d.setZero(n);
 }
@@ -76,7 +81,12 @@ const WrenchProgram& ScenarioProgram::write(ScenarioPosture& at, const ScenarioC
   for (Eigen::Index i = 0; i < F_.cols(); ++i) {
     program_.W.col(first_ + i) = rotated(posture.turn, Vector6d(F_.col(i)));
   }
-  program_.JtW.noalias() = posture.J.transpose().lazyProduct(program_.W);
+  const Eigen::Index own = program_.W.cols(), l = program_.columns() - own;
+  program_.JtW.leftCols(own).noalias() = posture.J.transpose().lazyProduct(program_.W);
+  if (l > 0) {
+    program_.C_2 = posture.C_2;
+    program_.JtW.rightCols(l).noalias() = posture.J_2.transpose().lazyProduct(program_.C_2);
+  }
   program_.tau_d = posture.tau_d;
   for (std::size_t group = 0; group < choice.cases.size(); ++group) {
     at.add_load(list.loads[group][static_cast<std::size_t>(choice.cases[group])], program_.tau_d);

@@ -38,7 +38,7 @@ class ScenarioPosture final : public ScenarioForces {
 
 /// The wrench program of one scenario: W = [c_s] or [c_s, F], where the first coordinate is beta.
 /// Or W = [r E, F] with the axes of a ball of radius r, whose coordinates z are then the first
-/// ones.
+/// ones. The columns C_2 of a second contact follow W, with their limits.
 class ScenarioProgram {
  public:
   /// `axes` is the number of axes of the ball; 0: one wrench.

@@ -139,6 +139,19 @@ void require_known_loads(const UncertaintySpec& uncertainty) {
   require_none(uncertainty.current_speed != 0 || !uncertainty.current_vectors.empty(), "current");
 }
 
+/// Rejects currents beside a second contact.
+void require_still_water(const TaskSpec& task) {
+  if (!task.contact) return;
+  const Eigen::Vector3d& current = current_of(task);
+  if (!current.isZero(0)) {
+    throw BadValue("environment.current", shown(current), "zero beside [contact]");
+  }
+  const UncertaintySpec* uncertainty = task.uncertainty ? &*task.uncertainty : nullptr;
+  if (!uncertainty) return;
+  if (uncertainty->current_speed == 0 && uncertainty->current_vectors.empty()) return;
+  throw BadValue("uncertainty.current", "a value", "no such key beside [contact]");
+}
+
 /// Rejects a payload at rest on whose added mass A a current V exerts the moment V x (A V).
 void require_no_moment_of_payload(const TaskSpec& task, const ScenarioList& list) {
   if (!list.payload || !has_current(list)) return;
@@ -227,6 +240,7 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
     throw BadValue("loss.friction", shown(task.loss->friction),
                    "0 in tasks in time, where friction opposes the rate of a joint");
   }
+  require_still_water(task);
   list.loads = uncertain_loads(uncertainty, problem);
   if (!current_of(task).isZero(0)) {
     LoadGroup single = known_current(task, problem.robot);
@@ -251,11 +265,6 @@ void set_scenarios(const TaskSpec& task, Problem& problem) {
   if (!stated && list.loads.empty() && same_limits) {
     list = {};
     return;
-  }
-  if (task.contact) {
-    throw BadValue(
-        "contact", "a table",
-        fmt::format("none beside {}: lists of scenarios have one contact", key_of_lists(task).key));
   }
   for (const ActuatorLimits& each : limits) {
     list.limits.push_back(

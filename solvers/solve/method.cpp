@@ -11,6 +11,7 @@
 #include "lib/measure/task_dynamics.h"
 #include "lib/robot/gears.h"
 #include "lib/scenario/ball_across.h"
+#include "lib/scenario/scenario_facets.h"
 #include "lib/search/facet_program.h"
 #include "maxwrench/batch.h"
 #include "maxwrench/measure.h"
@@ -29,7 +30,7 @@ bool supports(const WrenchSolverEntry& solver, const Problem& problem, Wrench wr
 
 /// Whether the task has a ball of wrenches that the facets of {B u} solve.
 bool ball_by_facets(const Problem& problem, Wrench wrench) {
-  return problem.scenarios.ball && wrench == Wrench::kPure && problem.robot.actuation.has_facets;
+  return problem.scenarios.ball && wrench == Wrench::kPure && ScenarioFacets::supports(problem);
 }
 
 /// The lower-level solvers that support a measure and a wrench; a null entry for a closed form.
@@ -119,8 +120,8 @@ void require_scenario_case(const Problem& problem, const MeasureEntry& measure, 
         problem.name));
   }
   throw std::invalid_argument(fmt::format(
-      "wrench: got a ball, expected pure wrenches and actuators with few facets, or a ball of one "
-      "or two axes alone, or wrench.set in its place ({})",
+      "wrench: got a ball, expected pure wrenches of one contact and actuators with few facets, or "
+      "a ball of one or two axes alone, or wrench.set in its place ({})",
       problem.name));
 }
 

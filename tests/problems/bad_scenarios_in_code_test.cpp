@@ -184,12 +184,18 @@ const std::vector<BadList> kBadLists = {
      },
      "uncertainty.trim: got a value, expected no such key except in static tasks; tasks in time "
      "have thrust and torque"},
-    {"second_contact",
+    {"current_and_second_contact",
      [](TaskSpec& t) {
        t = push_on_wall();
-       t.uncertainty.emplace().thrust = 0.1;
+       t.current = Eigen::Vector3d(0.3, 0, 0);
      },
-     "contact: got a table, expected none beside uncertainty: lists of scenarios have one contact"},
+     "environment.current: got [0.3, 0, 0], expected zero beside [contact]"},
+    {"uncertain_current_and_second_contact",
+     [](TaskSpec& t) {
+       t = push_on_wall();
+       t.uncertainty.emplace().current_speed = 0.3;
+     },
+     "uncertainty.current: got a value, expected no such key beside [contact]"},
     {"all_losses_of_many",
      [](TaskSpec& t) {
        for (int i = 0; i < 30; ++i) {

@@ -21,6 +21,20 @@ inline Problem scenario_task(const std::string& wrench, const std::string& table
   return load_problem((temporary.path() / "task.toml").string());
 }
 
+/// A shipped task with a second contact, by its file in problems/dual_arm, with this table [wrench]
+/// (empty: none) and these further tables.
+inline Problem second_contact_task(const std::string& file, const std::string& wrench,
+                                   const std::string& tables) {
+  const std::string folder = MAXWRENCH_SOURCE_DIR "/problems/dual_arm/";
+  std::string text = read_text(folder + file);
+  const std::string given = "[wrench]\nc = [0, 0, 0, 0, 0, 1]\n", robot = "robot = \"";
+  text.replace(text.find(given), given.size(), wrench.empty() ? "" : "[wrench]\n" + wrench + "\n");
+  text.insert(text.find(robot) + robot.size(), folder);
+  const TemporaryFolder temporary;
+  std::ofstream(temporary.path() / "task.toml") << text << "\n" << tables;
+  return load_problem((temporary.path() / "task.toml").string());
+}
+
 inline constexpr const char* kTurn = "c = [0, 0, 0, 0, 0, 1]";
 inline constexpr const char* kLift = "c = [0, 0, 1, 0, 0, 0]";
 

@@ -146,6 +146,12 @@ std::vector<std::vector<const LoadCase*>> choices_of(const Problem& problem, Wre
   return all;
 }
 
+/// What makes a list that has its scenarios bounded one by one.
+const char* kind_of(const Problem& problem, Wrench wrench) {
+  if (wrench == Wrench::kAny) return "any wrenches";
+  return problem.contact_columns() > 0 ? "forces of a second contact" : "a known current";
+}
+
 /// The scenarios with a wrench and finite limits. Those that have no bound are left out if others
 /// have one: the least of some bounds is a bound of the list.
 std::vector<Alone> scenarios_alone(const Problem& list_task, Wrench wrench) {
@@ -155,9 +161,7 @@ std::vector<Alone> scenarios_alone(const Problem& list_task, Wrench wrench) {
   const auto choices = choices_of(problem, wrench);
   const int count = scenario_count(problem);
   if (static_cast<std::size_t>(count) * choices.size() > kMostAlone) {
-    reject_alone(problem,
-                 wrench == Wrench::kAny ? "any wrenches of a list with many scenarios"
-                                        : "a known current with many scenarios",
+    reject_alone(problem, std::string(kind_of(problem, wrench)) + " with many scenarios",
                  "at most " + std::to_string(kMostAlone) + " of them");
   }
   std::vector<Alone> all;
@@ -183,9 +187,32 @@ std::vector<Alone> scenarios_alone(const Problem& list_task, Wrench wrench) {
 }
 
 /// The least of the bounds of the scenarios. The multiplier is [number of the scenario; its own].
+///
+/// The forces of a second contact differ between scenarios. So the coordinates of a box are those
+/// that all scenarios share, then the shares of the contact forces of each scenario. Else a box
+/// would bound each scenario with some of its forces only, and the least of these is no bound.
 class AloneListBound final : public Bound {
  public:
-  explicit AloneListBound(std::vector<Alone> scenarios) : scenarios_(std::move(scenarios)) {}
+  /// `shares` is the number of shares of one scenario.
+  AloneListBound(std::vector<Alone> scenarios, Eigen::Index shares)
+      : scenarios_(std::move(scenarios)), shares_(shares) {}
+
+  void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const override {
+    scenarios_.front().bound->extend(lower, upper);
+    for (Eigen::VectorXd* limits : {&lower, &upper}) {
+      const Eigen::VectorXd one = *limits;
+      limits->resize(one.size() + others() * shares_);
+      *limits << one, one.tail(shares_).replicate(others(), 1);
+    }
+  }
+
+  bool shrink(Eigen::VectorXd& lower, Eigen::VectorXd& upper, std::vector<BoxCut>* cuts) override {
+    Eigen::VectorXd least = part_of(lower, 0), most = part_of(upper, 0);
+    if (!scenarios_.front().bound->shrink(least, most, cuts)) return false;
+    lower.head(least.size()) = least;
+    upper.head(most.size()) = most;
+    return true;
+  }
 
   double ceiling() const override {
     double least = kInfinity;
@@ -206,19 +233,23 @@ class AloneListBound final : public Bound {
     proof.forget(high);
     // A value of the list may be below the lower end of a scenario by kEndTolerance (1 + |high|).
     const double most = high + 2 * kEndTolerance * (1 + std::abs(high));
+    std::size_t decides = first;
     for (std::size_t k = 0; k < scenarios_.size() && proof.high > low; ++k) {
       const std::size_t s = (first + k) % scenarios_.size();
       const Alone& each = scenarios_[s];
       BoxProof own;
       if (s == first) own = larger;
-      each.bound->evaluate(lower, upper, down(low * each.length), up(most * each.length), own);
+      each.bound->evaluate(part_of(lower, s), part_of(upper, s), down(low * each.length),
+                           up(most * each.length), own);
       const double factor = up(own.high / each.length);
       if (!(factor < proof.high)) continue;
       Eigen::VectorXd numbers(own.multiplier.size() + 1);
       numbers << static_cast<double>(s), own.multiplier;
       proof.improve(factor, numbers);
       proof.basis = own.basis;
+      decides = s;
     }
+    if (shares_ > 0 && proof.axis < 0) proof.axis = widest(upper - lower, decides);
   }
 
   std::unique_ptr<Bound> clone() const override {
@@ -226,17 +257,68 @@ class AloneListBound final : public Bound {
     for (const Alone& each : scenarios_) {
       copies.push_back({each.at, each.length, each.bound->clone()});
     }
-    return std::make_unique<AloneListBound>(std::move(copies));
+    return std::make_unique<AloneListBound>(std::move(copies), shares_);
   }
 
  private:
+  Eigen::Index others() const { return static_cast<Eigen::Index>(scenarios_.size()) - 1; }
+
+  /// Where the shares of a scenario begin in the coordinates x of a box.
+  Eigen::Index shares_of(Eigen::Index coordinates, std::size_t scenario) const {
+    const Eigen::Index after = others() + 1 - static_cast<Eigen::Index>(scenario);
+    return coordinates - after * shares_;
+  }
+
+  /// The coordinates of a scenario alone.
+  Eigen::VectorXd part_of(const Eigen::VectorXd& x, std::size_t scenario) const {
+    Eigen::VectorXd part(x.size() - others() * shares_);
+    part << x.head(shares_of(x.size(), 0)), x.segment(shares_of(x.size(), scenario), shares_);
+    return part;
+  }
+
+  /// The widest coordinate of a scenario.
+  int widest(const Eigen::VectorXd& widths, std::size_t scenario) const {
+    const Eigen::Index shared = shares_of(widths.size(), 0);
+    Eigen::Index axis = 0;
+    part_of(widths, scenario).maxCoeff(&axis);
+    if (axis >= shared) axis += shares_of(widths.size(), scenario) - shared;
+    return static_cast<int>(axis);
+  }
+
   /// Beyond the rounding of a product or quotient.
   static constexpr double kFactorRounding = 4 * std::numeric_limits<double>::epsilon();
   static double up(double x) { return std::isfinite(x) ? x + kFactorRounding * std::abs(x) : x; }
   static double down(double x) { return std::isfinite(x) ? x - kFactorRounding * std::abs(x) : x; }
 
   std::vector<Alone> scenarios_;
+  Eigen::Index shares_;
 };
+
+/// Rejects lists whose scenarios have no bound of a base that follows in closed form.
+void require_closed_form(const Problem& problem, Wrench wrench) {
+  const ScenarioList& list = problem.scenarios;
+  const std::string kind = kind_of(problem, wrench);
+  const bool any_ball = wrench == Wrench::kAny && BallAcross::supports(list);
+  if (list.payload || (list.ball && !any_ball)) {
+    reject_alone(problem, kind + " with a ball or a payload", "wrenches one by one");
+  }
+  if (problem.contact || !problem.dependent.empty() || problem.free.count() > 0) {
+    reject_alone(problem, kind + " at a pose that is partly free, or with dependent joints",
+                 "a fixed pose and a base that follows in closed form");
+  }
+}
+
+/// Rejects lists with forces of a second contact whose scenarios are no ordinary tasks.
+void require_wrenches(const Problem& problem, Wrench wrench) {
+  const ScenarioList& list = problem.scenarios;
+  const std::string kind = kind_of(problem, wrench);
+  if (list.ball && !(BallAcross::supports(list) && list.ball->E.cols() == 1)) {
+    reject_alone(problem, kind + " with a ball of several axes", "wrenches one by one");
+  }
+  if (list.payload && problem.free.count() > 0) {
+    reject_alone(problem, kind + " with a payload at a pose that is partly free", "a fixed pose");
+  }
+}
 
 }  // namespace
 
@@ -248,20 +330,13 @@ bool has_still_water(const ScenarioList& list) {
 }
 
 std::unique_ptr<Bound> make_alone_list_bound(const Problem& problem, Wrench wrench) {
-  const ScenarioList& list = problem.scenarios;
-  const char* const where = wrench == Wrench::kAny ? "any wrenches" : "a known current";
-  const bool any_ball = wrench == Wrench::kAny && BallAcross::supports(list);
-  if (list.payload || (list.ball && !any_ball)) {
-    reject_alone(problem, std::string(where) + " with a ball or a payload", "wrenches one by one");
+  const Eigen::Index shares = problem.contact_columns();
+  if (shares > 0) {
+    require_wrenches(problem, wrench);
+  } else {
+    require_closed_form(problem, wrench);
   }
-  if (problem.contact || !problem.dependent.empty() || problem.free.count() > 0) {
-    reject_alone(problem,
-                 std::string(where) +
-                     " at a pose that is partly free, or with dependent "
-                     "joints",
-                 "a fixed pose and a base that follows in closed form");
-  }
-  return std::make_unique<AloneListBound>(scenarios_alone(problem, wrench));
+  return std::make_unique<AloneListBound>(scenarios_alone(problem, wrench), shares);
 }
 
 }  // namespace maxwrench

@@ -71,8 +71,9 @@ std::unique_ptr<Bound> make_ball_any_bound(const Problem& problem, const Matrix6
 ///
 /// is a bound as above. It combines the facets of all scenarios that have to do with a box; all
 /// others have lambda_s = 0. The multiplier is [numbers of s; lambda_s] of each scenario with
-/// lambda_s, and nu. Throws std::invalid_argument, with one line, as `ListModel`. Any wrenches, and
-/// a load that always has a current, have the bound `make_alone_list_bound`.
+/// lambda_s, and nu. Throws std::invalid_argument, with one line, as `ListModel`. Any wrenches, a
+/// load that always has a current, and forces of a second contact have the bound
+/// `make_alone_list_bound`.
 std::unique_ptr<Bound> make_list_bound(const Problem& problem, Wrench wrench);
 
 /// Whether each load has a case without a current, so that such scenarios bound the list.
@@ -83,10 +84,12 @@ bool has_still_water(const ScenarioList& list);
 /// the optimum where two scenarios meet in a ridge. A scenario in a current v_c is an instant of a
 /// motion at -v_c through still water (`make_instant_bound`). The multiplier is [number of the
 /// scenario; its own multiplier]; scenarios that only hold and those with infinite limits are left
-/// out. Of a ball with any wrenches each scenario has `make_ball_any_bound`. Throws
-/// std::invalid_argument, with one line, for a payload, other balls, a pose that is partly free,
-/// dependent joints, any wrenches in a current and more than 64 scenarios, and as the bounds of
-/// single tasks.
+/// out. Of a ball with any wrenches each scenario has `make_ball_any_bound`. With forces of a
+/// second contact each scenario has the bound of an ordinary task, and x ends with the shares of
+/// the contact forces of each scenario. Throws std::invalid_argument, with one line, for more than
+/// 64 scenarios, and as the bounds of single tasks. With forces of a second contact also for a ball
+/// of several axes, and a payload at a pose that is partly free. Without them for any wrenches in a
+/// current, a payload, other balls, a pose that is partly free and dependent joints.
 std::unique_ptr<Bound> make_alone_list_bound(const Problem& problem, Wrench wrench);
 
 /// Magnitudes of tau and a in the six axes of the base, beyond the limits of sliding coordinates.

@@ -330,7 +330,8 @@ class ListBound final : public Bound {
 }  // namespace
 
 std::unique_ptr<Bound> make_list_bound(const Problem& problem, Wrench wrench) {
-  if (wrench == Wrench::kAny || !has_still_water(problem.scenarios)) {
+  if (wrench == Wrench::kAny || !has_still_water(problem.scenarios) ||
+      problem.contact_columns() > 0) {
     return make_alone_list_bound(problem, wrench);
   }
   return std::make_unique<ListBound>(std::make_shared<const ListModel>(problem));

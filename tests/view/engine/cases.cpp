@@ -13,6 +13,7 @@
 #include "maxwrench/trajectory.h"
 #include "solvers/solve/method.h"
 #include "tests/support/coded_tasks.h"
+#include "tests/support/scenario_task.h"
 #include "tests/support/support.h"
 #include "view/engine/problem_data.h"
 #include "view/scene/parts.h"
@@ -210,6 +211,8 @@ int main() {
     const std::string folder = MAXWRENCH_SOURCE_DIR "/examples/tasks/";
     tasks.push_back(cases_of(load_problem(folder + name + ".toml")));
   }
+  tasks.push_back(cases_of(second_contact_task(
+      "bar_wall.toml", kTurn, "[uncertainty]\nmass.vehicle = 0.2\n[loss]\nany = 1\n")));
   for (const char* name : {"planar/trajectory", "uvms/valve_trajectory", "uvms/valve_impulse"}) {
     tasks.push_back(trajectories_of(load_problem(name)));
   }

@@ -8,6 +8,7 @@
 #include "solvers/solve/method.h"
 #include "tests/support/boxes.h"
 #include "tests/support/coded_tasks.h"
+#include "tests/support/contacts.h"
 #include "tests/support/scenario_task.h"
 #include "tests/support/support.h"
 
@@ -150,6 +151,84 @@ TEST(AloneListBound, SLOW_ProvesADiscWithAnyWrenches) {
   EXPECT_NE(why_no_certificate(task, Wrench::kAny), "");
 }
 
+/// At a posture one sense of the torque needs a push on the wall and the other one none. So each
+/// scenario has shares of its own, and some half of each share holds the forces of a value.
+TEST(AloneListBound, ScenariosExertForcesOfTheirOwn) {
+  Problem task =
+      second_contact_task("bar_wall.toml", "set = [[0, 0, 0, 0, 0, 1], [0, 0, 0, 0, 0, -1]]",
+                          "[loss]\ncases = [[\"front_left_vertical\"]]\n");
+  task.robot.collision = nullptr;
+  const auto bound = make_capability_bound(task, "linf_polytope", Wrench::kPure);
+  Eigen::VectorXd least = task.theta_r_min, most = task.theta_r_max;
+  bound->extend(least, most);
+  constexpr Eigen::Index kPlaces = 2, kArm = 3, kShares = 4;
+  ASSERT_EQ(least.size(), kPlaces + kArm + kShares);
+  Random random(8);
+  int valued = 0;
+  for (int i = 0; i < samples(20); ++i) {
+    const Answer answer = evaluate(task, near_default(task, random));
+    if (answer.status != Status::kOptimal) continue;
+    ++valued;
+    Eigen::VectorXd x(kPlaces + kArm);
+    x << answer.posture.theta_r, answer.posture.q(task.contact->follow);
+    least.head(kPlaces + kArm) = x.array() - 1e-7;
+    most.head(kPlaces + kArm) = x.array() + 1e-7;
+    double high = -kInfinity;
+    for (unsigned halves = 0; halves < 1U << kShares; ++halves) {
+      Eigen::VectorXd lower = least, upper = most;
+      for (Eigen::Index k = 0; k < kShares; ++k) {
+        const bool second = (halves >> k & 1U) != 0;
+        (second ? lower : upper)[kPlaces + kArm + k] = 0.5;
+      }
+      ASSERT_TRUE(bound->shrink(lower, upper, nullptr));
+      BoxProof proof;
+      bound->evaluate(lower, upper, 0, 1e3, proof);
+      high = std::max(high, proof.high);
+    }
+    EXPECT_GE(high, answer.beta() * (1 - 1e-9));
+    EXPECT_LE(high, answer.beta() * (1 + 1e-3));
+  }
+  EXPECT_GT(valued, 0);
+}
+
+/// No place of a grid on the wall exceeds the bound, and one nearly reaches it.
+TEST(AloneListBound, ProvesTheBestPlaceOfALossBesideASecondContact) {
+  const Problem task =
+      second_contact_task("bar_wall.toml", kTurn, "[loss]\nany = 1\nactuators = [\"thrusters\"]\n");
+  const Proof proof = certify(task, Options(), {.gap = 1e-3, .seconds = 300});
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  constexpr int kPlaces = kSanitized ? 5 : 25;
+  double best = 0;
+  for (int i = 0; i < kPlaces * kPlaces; ++i) {
+    Eigen::VectorXd place(2);
+    place << i % kPlaces, i / kPlaces;
+    const Answer answer = evaluate(
+        task, task.theta_r_min +
+                  (task.theta_r_max - task.theta_r_min).cwiseProduct(place) / (kPlaces - 1));
+    if (answer.status == Status::kOptimal) best = std::max(best, answer.beta());
+  }
+  EXPECT_LE(best, proof.bound);
+  EXPECT_GE(best, (kSanitized ? 0.7 : 0.95) * proof.bound);
+  EXPECT_EQ(why_no_certificate(task, Wrench::kPure), "a task with forces of a second contact");
+}
+
+/// A list of one scenario has the bound of an ordinary task with its limits.
+TEST(AloneListBound, OfOneScenarioIsThatOfAnOrdinaryTask) {
+  const Problem list = second_contact_task("bar_wall.toml", kTurn, "[uncertainty]\nthrust = 0.1\n");
+  Problem task = second_contact_task("bar_wall.toml", kTurn, "");
+  Zonotope& set = task.robot.actuation;
+  Eigen::VectorXd share = Eigen::VectorXd::Ones(set.actuators());
+  share.head(static_cast<Eigen::Index>(task.robot.thrusters.size())).setConstant(0.9);
+  set = make_zonotope(set.B, set.u_min.cwiseProduct(share).eval(),
+                      set.u_max.cwiseProduct(share).eval());
+  const ProofOptions how{.gap = 1e-3, .seconds = 300};
+  const Proof one = certify(list, Options(), how), other = certify(task, Options(), how);
+  EXPECT_EQ(one.status, Status::kProven);
+  EXPECT_NEAR(one.answer.beta(), other.answer.beta(), 1e-3 * other.answer.beta());
+  EXPECT_LE(other.answer.beta(), one.bound);
+  EXPECT_LE(one.answer.beta(), other.bound);
+}
+
 TEST(AloneListBound, RejectsWhatItDoesNotBound) {
   const auto rejects = [](const char* wrench, const std::string& tables, Wrench allowed) {
     const Problem task = scenario_task(wrench, tables);
@@ -162,6 +241,16 @@ TEST(AloneListBound, RejectsWhatItDoesNotBound) {
                 .find("a known current with a ball"),
             std::string::npos);
   EXPECT_NE(rejects(kLift, flow + "[loss]\nany = 3\n", Wrench::kPure).find("at most 64"),
+            std::string::npos);
+  const auto rejects_at_wall = [](const char* wrench, const std::string& tables) {
+    const Problem task = second_contact_task("bar_wall.toml", wrench, tables);
+    return rejection_of([&] { make_capability_bound(task, "linf_polytope", Wrench::kPure); });
+  };
+  EXPECT_NE(rejects_at_wall(kTurn, "[loss]\nany = 3\n")
+                .find("forces of a second contact with many scenarios, expected at most 64"),
+            std::string::npos);
+  EXPECT_NE(rejects_at_wall("ball = { axes = [\"fx\", \"fy\"], radius = 1 }", "")
+                .find("forces of a second contact with a ball of several axes"),
             std::string::npos);
 }
 
