@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 
@@ -46,6 +47,33 @@ bool take_over_proofs(const std::vector<std::string>& from, std::size_t bound, s
     to[scratch] = from[scratch];
   }
   return to != before;
+}
+
+/// The header of the table of a folder, also of a run that was killed; empty if it has none.
+std::string header_of(const fs::path& folder) {
+  std::string text = csv_text(table_file(folder / kMapTable));
+  if (text.empty()) text = text_of(folder / "map.csv.part");
+  return text.substr(0, text.find('\n'));
+}
+
+/// The columns of the first folder that has cells.
+std::vector<std::string> columns_of(const std::vector<fs::path>& folders) {
+  for (const fs::path& folder : folders) {
+    const std::string header = header_of(folder);
+    if (header.empty()) continue;
+    std::vector<std::string> columns = split_csv(header);
+    const auto lacks = [&](const char* name) {
+      return std::find(columns.begin(), columns.end(), name) == columns.end();
+    };
+    if (!columns.front().starts_with("i_") || lacks("beta") || lacks("bound") || lacks("scratch")) {
+      throw std::invalid_argument(fmt::format("{}: line 1: got '{}', expected the columns of a map",
+                                              (folder / kMapTable).string(), one_line(header)));
+    }
+    return columns;
+  }
+  throw std::invalid_argument(
+      fmt::format("{}: got no cell, here and in the other folders, expected those of a map",
+                  folders.back().string()));
 }
 
 }  // namespace
@@ -104,8 +132,6 @@ std::size_t merge_maps(const fs::path& out, const std::vector<std::string>& fold
   std::vector<fs::path> all(folders.begin(), folders.end());
   const std::string settings = text_of(all.front() / kMapSettings);
   if (holds_map(out)) all.insert(all.begin(), out);
-  std::string header = csv_text(table_file(all.front() / kMapTable));
-  if (header.empty()) header = text_of(all.front() / "map.csv.part");  // of a killed run
   for (const fs::path& folder : all) {
     if (text_of(folder / kMapSettings) != settings) {
       throw std::invalid_argument(
@@ -118,7 +144,7 @@ std::size_t merge_maps(const fs::path& out, const std::vector<std::string>& fold
                       (folder / "map.csv.part").string()));
     }
   }
-  const std::vector<std::string> columns = split_csv(header.substr(0, header.find('\n')));
+  const std::vector<std::string> columns = columns_of(all);
   std::size_t axes = 0;
   while (axes < columns.size() && columns[axes].starts_with("i_")) ++axes;
   Table merged(out / kMapTable, columns, axes);

@@ -218,7 +218,7 @@ void add_proof_options(CLI::App& command, CertifyCommandOptions& options) {
                   "file for the certificate, which 'verify' checks")
       ->check(reject_empty);
   options.within.add(command);
-  add_theta_r(command, options.theta_r);
+  add_theta_r(command, options.theta_r, "none, of a task in time a bound on all trajectories");
   command.add_flag("--bound", options.bound,
                    "of a task in time with --theta-r: what no trajectory exceeds, and the gap");
   options.motion.add(command);

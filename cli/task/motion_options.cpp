@@ -71,10 +71,11 @@ void MotionOptions::change(Problem& problem) const {
   if (thruster_lag) throw_bad_option("--thruster-lag", fmt::format("{}", *thruster_lag), expected);
 }
 
-void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r) {
+void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r, const char* without) {
   app.add_option("--theta-r", theta_r,
-                 "redundant coordinates, separated by commas (default: those of the task); for a "
-                 "task in time, a constant posture or a CSV file with a row for each knot");
+                 fmt::format("redundant coordinates, separated by commas (default: {}); for a task "
+                             "in time, a constant posture or a CSV file with a row for each knot",
+                             without));
 }
 
 Eigen::MatrixXd knots_of(const Problem& problem, const std::optional<std::string>& text) {

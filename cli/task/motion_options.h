@@ -21,8 +21,9 @@ struct MotionOptions {
   void change(Problem& problem) const;
 };
 
-/// Adds `--theta-r`, for any task.
-void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r);
+/// Adds `--theta-r`, for any task. `without` says what it is by default.
+void add_theta_r(CLI::App& app, std::optional<std::string>& theta_r,
+                 const char* without = "those of the task");
 
 /// The table that `--theta-r` gives: a file, or numbers that are used at all knots; without the
 /// option, the constant default of the task.

@@ -43,8 +43,8 @@ struct TrajectoryProof : Verdict {
   double clearance = kInfinity;  ///< no bodies are closer than their margin plus this [m]
   double seconds = 0;            ///< wall time, without that of `answer` [s]
   std::string certificate;  ///< the contents of a certificate file. Empty unless it was requested
-  /// Of `solve_proven`: value between knots of what the first search found, if another trajectory is
-  /// the proven one [unit of the answer]; NaN: it is the proven one.
+  /// Of `solve_proven`: value between knots of what the first search found, if another trajectory
+  /// is the proven one [unit of the answer]; NaN: it is the proven one.
   double searched = std::numeric_limits<double>::quiet_NaN();
   std::string rejection;  ///< why the trajectory of `searched` is not proven
   /// Of `solve_proven`: the trajectory is the default posture, held: more is proven of no other.

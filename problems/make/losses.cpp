@@ -53,9 +53,9 @@ Lost actuators_named(const std::string& key, const std::vector<std::string>& nam
   if (found.empty() || std::adjacent_find(found.begin(), found.end()) != found.end()) {
     std::vector<std::string> known;
     for (int i = 0; i < all; ++i) known.push_back(actuator_name(robot, i));
-    throw BadValue(
-        key, shown(names),
-        fmt::format("'thrusters', 'joints' or some of {}, each once", fmt::join(known, ", ")));
+    throw BadValue(key, shown(names),
+                   fmt::format("{}'joints' or some of {}, each once",
+                               thrusters > 0 ? "'thrusters', " : "", fmt::join(known, ", ")));
   }
   for (const int i : found) {
     if (!is_geared(robot, i)) continue;
@@ -225,11 +225,15 @@ void add_limits(const LossSpec& loss, const UncertaintySpec& uncertainty, const 
   }
 }
 
-void check_shares(const UncertaintySpec& uncertainty) {
+void check_shares(const UncertaintySpec& uncertainty, const Robot& robot) {
   for (const auto& [key, share] : {std::pair("uncertainty.thrust", uncertainty.thrust),
                                    std::pair("uncertainty.torque", uncertainty.torque)}) {
     if (share >= 0 && share < 1) continue;
     throw BadValue(key, shown(share), "a share from 0 to 1, below 1");
+  }
+  if (uncertainty.thrust > 0 && thrusters_of(robot) == 0) {
+    throw BadValue("uncertainty.thrust", shown(uncertainty.thrust),
+                   "no such key: the robot has no thrusters");
   }
 }
 
@@ -238,7 +242,7 @@ void check_shares(const UncertaintySpec& uncertainty) {
 std::vector<ActuatorLimits> actuator_limits(const std::optional<LossSpec>& loss,
                                             const UncertaintySpec& uncertainty,
                                             const Robot& robot) {
-  check_shares(uncertainty);
+  check_shares(uncertainty, robot);
   const std::vector<Lost> sets = loss ? lost_sets(*loss, robot) : std::vector<Lost>{{}};
   int two_ends = 0;
   for (int i = 0; i < robot.actuators(); ++i) two_ends += has_two_ends(uncertainty, robot, i);

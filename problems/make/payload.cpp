@@ -44,9 +44,13 @@ CarriedBody body_of(const PayloadSpec& payload) {
           .added_mass = payload.added_mass};
 }
 
-void require_payload(const PayloadSpec& payload) {
+void require_payload(const PayloadSpec& payload, double water_density) {
   require_numbers("payload.com", payload.com, 3);
   require_non_negative("payload.volume_per_kg", payload.volume);
+  if (water_density == 0 && payload.volume > 0) {
+    throw BadValue("payload.volume_per_kg", shown(payload.volume),
+                   "no such key in air: environment.water_density is 0");
+  }
   require_numbers("payload.cob", payload.cob.value_or(payload.com), 3);
   require_numbers("payload.inertia_per_kg", payload.inertia.reshaped(), 9);
   if (const auto bad = why_no_body("payload", 1, payload.inertia)) {
@@ -79,7 +83,7 @@ void set_payload(const TaskSpec& task, Problem& problem) {
   if (task.wrench_in_end_effector) {
     throw BadValue("wrench.frame", "a value", "no such key beside payload: it is the wrench");
   }
-  require_payload(payload);
+  require_payload(payload, problem.robot.water_density);
   const CarriedBody body = body_of(payload);
   const double displaced = problem.robot.water_density * body.volume;
   CarriedLoad load;
@@ -102,6 +106,7 @@ void set_payload(const TaskSpec& task, Problem& problem) {
     problem.scenarios.unit = "kg";
     return;
   }
+  if (c.stableNorm() > kMostPerUnit) require_moderate(payload, c.stableNorm());
   if (!weighs) {
     throw BadValue("payload", fmt::format("a wrench of {:g} per kg", c.stableNorm()),
                    "a payload with weight in water");

@@ -146,6 +146,9 @@ Delta delta_of(const char* key, double change) {
 
 LoadGroup trim_cases(double width, const Robot& robot) {
   require_non_negative("uncertainty.trim", width);
+  if (width > 0 && robot.base_axes.empty()) {
+    throw BadValue("uncertainty.trim", shown(width), "no such key: the base is fixed");
+  }
   LoadGroup group;
   for (const double change : {width, -width}) {
     // The trim carries: what it carries is missing from the wet mass of the base.

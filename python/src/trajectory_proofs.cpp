@@ -13,6 +13,7 @@
 #include "python/src/fields.h"
 #include "python/src/parts.h"
 #include "python/src/words.h"
+#include "solvers/certify/certify.h"
 
 namespace maxwrench::python {
 
@@ -48,7 +49,7 @@ std::optional<std::string> name_or_none(const std::string& scenario) {
   return scenario.empty() ? std::nullopt : std::optional(scenario);
 }
 
-/// What no trajectory exceeds; NaN for tasks that have no such bound.
+/// What no trajectory exceeds, with valid options; NaN for tasks that have no such bound.
 double bound_beside(const TrajectoryProof& proof, const Problem& problem, const Options& options,
                     const ProofOptions& how) {
   const Eigen::MatrixXd& knots = proof.answer.trajectory.knots;
@@ -96,6 +97,10 @@ py::object certify_motion(const PyTask& task, const py::object& theta_r, const O
     knots = knots_in(numbers("theta_r", theta_r), problem);
     if (knots.rows() != knots_of(problem)) knots = constant_knots(problem, stacked(knots));
   }
+  CertifyOptions of_bound;
+  of_bound.gap = limits.gap;
+  of_bound.seconds = limits.seconds;
+  require_valid(of_bound);
   Options own = options;
   const Callback shown(callback, options.budget, problem.name);
   run_in_background(shown.function(), [&](Watch& watch) {
@@ -156,14 +161,16 @@ void add_trajectory_proofs(py::module_& m) {
           "The number of proven scenarios of a list; 0: there is no list.")
       .def_property_readonly(
           "searched", [](const PyTrajectoryProof& p) { return p.proof.searched; },
-          "What the first search found, between knots, if another trajectory is the proven one; NaN: "
+          "What the first search found, between knots, if another trajectory is the proven one; "
+          "NaN: "
           "it is the proven one, or it was given.")
       .def_property_readonly(
           "rejection", [](const PyTrajectoryProof& p) { return p.proof.rejection; },
           "Why the trajectory of ``searched`` is not proven; empty if there is none.")
       .def_property_readonly(
           "held", [](const PyTrajectoryProof& p) { return p.proof.held; },
-          "Whether the trajectory is the default posture, held, because more was proven of no other.")
+          "Whether the trajectory is the default posture, held, because more was proven of no "
+          "other.")
       .def_readonly("bound", &PyTrajectoryProof::bound,
                     "What no trajectory of the task exceeds; NaN: it was given, or there is none.")
       .def_property_readonly("gap", &PyTrajectoryProof::gap,

@@ -128,6 +128,9 @@ def test_an_unprovable_trajectory_says_when(tmp_path, rejects):
     rejects(mw.certify, "planar/trajectory", [0, 0], wrench="any")
     rejects(mw.certify, "planar/trajectory", [0, 0], gap=1e-4)
     rejects(mw.certify, "planar/trajectory", [0, 0], seconds=5)
+    rejects(mw.certify, "planar/trajectory", gap=0)
+    rejects(mw.certify, "planar/trajectory", gap=float("nan"))
+    rejects(mw.certify, "planar/trajectory", seconds=-1)
     rejects(mw.certify, "planar/force", [0, 0])
 
 

@@ -12,6 +12,7 @@
 #include "maxwrench/bound.h"
 #include "maxwrench/objective.h"
 #include "solvers/certify/certify.h"
+#include "solvers/map/lattice.h"
 #include "solvers/map/robot_keys.h"
 #include "solvers/solve/method.h"
 
@@ -171,6 +172,7 @@ void check_plan(const Problem& task, const MapPlan& plan) {
         fmt::format("refine: got {}, which may make {:g} cells, expected at most {:g}", plan.refine,
                     finest, static_cast<double>(10 * kMostCells)));
   }
+  if (plan.shards > 1) Lattice(plan).shard_cells(0);  // rejects more parts than coarse cells
 }
 
 void require_bound(const Problem& task, const MapPlan& plan, const Case& choice) {

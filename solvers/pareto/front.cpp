@@ -22,6 +22,10 @@ constexpr long kAgain = 4;
 /// Weights below this share of a value are zero: cos of 90 degrees is not exactly.
 constexpr double kLeastWeight = 1e-12;
 constexpr double kSamePlace = 1e-12;
+/// A task's own best is replaced by values that are larger by this share.
+constexpr double kBetter = 1e-6;
+/// How often the front is made again with better ones.
+constexpr int kMostAgain = 3;
 
 [[noreturn]] void throw_unlike(const Problem& a, const Problem& b, const char* what) {
   throw std::invalid_argument(fmt::format(
@@ -87,15 +91,12 @@ class FrontMaker {
   Front make() {
     const auto start = std::chrono::steady_clock::now();
     if (find_own()) {
-      const auto count = static_cast<Eigen::Index>(goals_.size());
       find_all();
-      front_.compromise.weights.resize(count);
-      for (Eigen::Index k = 0; k < count; ++k) {
-        front_.compromise.weights[k] = front_.own[static_cast<std::size_t>(k)].beta();
+      find_compromise();
+      for (int again = 0; again < kMostAgain && raise_own(); ++again) {
+        find_all();
+        find_compromise();
       }
-      front_.compromise.phi =
-          count == 2 ? std::numbers::pi / 4 : std::numeric_limits<double>::quiet_NaN();
-      improve(front_.compromise, options_.budget);
       // Where no posture has a value of all tasks that count, there is no point.
       std::erase_if(front_.points,
                     [](const FrontPoint& point) { return point.theta_r.size() == 0; });
@@ -139,6 +140,7 @@ class FrontMaker {
   /// Searches for each weight of two tasks, twice: at first the starts are the best postures of the
   /// tasks, then those of all weights.
   void find_all() {
+    front_.points.clear();
     if (plan_.points == 0) return;
     const double a = front_.own[0].beta(), b = front_.own[1].beta();
     for (int i = 0; i < plan_.points; ++i) {
@@ -155,6 +157,46 @@ class FrontMaker {
     }
     postures_.resize(goals_.size());
     add_postures();
+  }
+
+  /// Searches for one posture for all tasks.
+  void find_compromise() {
+    const auto count = static_cast<Eigen::Index>(goals_.size());
+    front_.compromise.weights.resize(count);
+    for (Eigen::Index k = 0; k < count; ++k) {
+      front_.compromise.weights[k] = front_.own[static_cast<std::size_t>(k)].beta();
+    }
+    front_.compromise.phi =
+        count == 2 ? std::numbers::pi / 4 : std::numeric_limits<double>::quiet_NaN();
+    improve(front_.compromise, options_.budget);
+  }
+
+  /// Replaces the own best of each task by what the front has found, if that is more. Returns
+  /// whether any is.
+  bool raise_own() {
+    if (interrupted_) return false;
+    bool raised = false;
+    for (std::size_t k = 0; k < goals_.size(); ++k) {
+      Answer& own = front_.own[k];
+      const auto take = [&](const FrontPoint& point) {
+        if (point.theta_r.size() == 0) return;
+        Answer answer = answer_at(k, point.theta_r);
+        if (!answer.has_value() || !(answer.beta() > own.beta() * (1 + kBetter))) return;
+        postures_[k] = point.theta_r;
+        own = std::move(answer);
+        raised = true;
+      };
+      std::for_each(front_.points.begin(), front_.points.end(), take);
+      take(front_.compromise);
+    }
+    return raised;
+  }
+
+  /// The value of a task at a posture, verified from its data.
+  Answer answer_at(std::size_t k, const Eigen::VectorXd& theta_r) const {
+    Options here = options_;
+    static_cast<Case&>(here) = case_of(goals_[k], options_);
+    return evaluate(goals_[k].task, theta_r.transpose(), here);
   }
 
   void add_postures() {
@@ -186,10 +228,7 @@ class FrontMaker {
     point.beta.resize(count);
     point.t = kInfinity;
     for (Eigen::Index k = 0; k < count; ++k) {
-      const Goal& goal = goals_[static_cast<std::size_t>(k)];
-      Options here = options_;
-      static_cast<Case&>(here) = case_of(goal, options_);
-      const Answer answer = evaluate(goal.task, point.theta_r.transpose(), here);
+      const Answer answer = answer_at(static_cast<std::size_t>(k), point.theta_r);
       point.beta[k] = answer.has_value() ? answer.beta() : std::numeric_limits<double>::quiet_NaN();
       if (point.weights[k] > 0) point.t = std::min(point.t, point.beta[k] / point.weights[k]);
     }

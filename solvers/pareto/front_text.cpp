@@ -13,6 +13,9 @@ namespace {
 
 using nlohmann::ordered_json;
 
+/// A share that is promised, in percent: rounded down to a tenth, but for the rounding of t.
+std::string at_least(double t) { return percent(std::floor(1000 * t + 1e-6) / 1000); }
+
 double degrees(double phi) { return phi * 180 / std::numbers::pi; }
 
 std::string front_line(const FrontPoint& point, const std::string& name) {
@@ -57,7 +60,7 @@ std::string summary(const Front& front) {
   text += front_line(front.compromise, "all tasks");
   text += fmt::format(
       "one posture for all tasks: at least {} of the best that was found for each alone\n",
-      percent(front.compromise.t));
+      at_least(front.compromise.t));
   if (front.dominated > 0) text += fmt::format("{} dominated points left out\n", front.dominated);
   return text + line(front.evaluations, front.wall_s) + "\n";
 }

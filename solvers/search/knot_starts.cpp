@@ -173,8 +173,9 @@ TrajectoryObjective* as_trajectories(Objective& objective) {
 TrajectoryObjective& require_trajectories(Objective& objective, const char* search) {
   if (TrajectoryObjective* trajectories = as_trajectories(objective)) return *trajectories;
   throw std::invalid_argument(std::string("search: got '") + search +
-                              "', which supports only linf_polytope at a fixed pose without a "
-                              "second contact, expected another search");
+                              "', which supports only linf_polytope at a fixed pose, without a "
+                              "second contact and, at rest, without a list of scenarios, expected "
+                              "another search");
 }
 
 std::vector<Candidate> draw_knot_starts(TrajectoryObjective& objective,

@@ -58,15 +58,19 @@ Problem limited(const Problem& task, const ScenarioLimits& limits) {
   return changed;
 }
 
-/// A joint that its brake holds rests where it is, so the search does not move it.
+/// A joint that its brake holds rests where it is, so the search does not move it. Other
+/// coordinates would move a dependent joint, so where one of these is locked the posture rests.
 void hold_locked_joints(const ScenarioLimits& limits, const Eigen::VectorXd& theta_r,
                         Problem& task) {
   const auto thrusters = static_cast<int>(task.robot.thrusters.size());
-  for (std::size_t i = 0; i < task.redundant.size(); ++i) {
+  const auto is_locked = [&](int joint) {
     const auto& locked = limits.lost.locked;
-    const int actuator = thrusters + task.redundant[i];
-    if (std::find(locked.begin(), locked.end(), actuator) == locked.end()) continue;
-    const auto k = static_cast<Eigen::Index>(i);
+    return std::find(locked.begin(), locked.end(), thrusters + joint) != locked.end();
+  };
+  const bool rests = std::any_of(task.dependent.begin(), task.dependent.end(), is_locked);
+  for (Eigen::Index k = 0; k < theta_r.size(); ++k) {
+    const auto i = static_cast<std::size_t>(k);
+    if (!rests && !(i < task.redundant.size() && is_locked(task.redundant[i]))) continue;
     task.theta_r_min[k] = task.theta_r_max[k] = task.theta_r_default[k] = theta_r[k];
   }
 }

@@ -146,6 +146,15 @@ const std::vector<BadList> kBadLists = {
      "wrench.ball: got a value, expected no such key beside payload"},
     {"payload_beside_hold", [](TaskSpec& t) { t.payload.emplace(), t.c.setZero(), t.hold = true; },
      "wrench.hold: got a value, expected no such key beside payload"},
+    {"payload_volume_in_air", [](TaskSpec& t) { t.payload.emplace().volume = 1e-4, t.c.setZero(); },
+     "payload.volume_per_kg: got 0.0001, expected no such key in air"},
+    {"payload_far_away",
+     [](TaskSpec& t) {
+       t.payload.emplace().com.x() = 1e300;
+       t.c.setZero();
+       t.robot.gravity = 9.81;
+     },
+     "payload.com: got [1e+300, 0, 0], expected numbers of at most 1e+09"},
     {"payload_in_tool_axes",
      [](TaskSpec& t) { t.payload.emplace(), t.c.setZero(), t.wrench_in_end_effector = true; },
      "wrench.frame: got a value, expected no such key beside payload"},

@@ -208,5 +208,18 @@ TEST(BadScenariosInTime, AreRejected) {
                   "uvms/valve_trajectory");
 }
 
+/// fixed/push: an arm in air. What cannot matter to it is no silent default.
+TEST(BadScenarios, KeysThatCannotMatterAreRejected) {
+  const auto expect = [](const char* table, const char* key, const char* expected) {
+    const std::string tables = std::string(table) + "\n\n[theta_r]";
+    expect_rejected({"arm", "push.toml", "[theta_r]", tables.c_str(), {key, expected}},
+                    "fixed/push");
+  };
+  expect("[uncertainty]\nthrust = 0.1", "uncertainty.thrust: got 0.1", "no thrusters");
+  expect("[uncertainty]\ntrim = 0.1", "uncertainty.trim: got 0.1", "the base is fixed");
+  expect("[loss]\nany = 1", "loss.actuators: got ['thrusters'], expected 'joints' or some of",
+         "each once");
+}
+
 }  // namespace
 }  // namespace maxwrench

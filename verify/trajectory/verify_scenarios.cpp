@@ -18,6 +18,9 @@ std::string reject_list(const Problem& problem, const std::vector<TrajectoryCert
   if (proofs.size() != certificate_count(problem)) return "it is for another robot or task";
   for (std::size_t i = 1; i < proofs.size(); ++i) {
     const TrajectoryCertificate& each = proofs[i];
+    if (each.problem != proofs[0].problem || each.version != proofs[0].version) {
+      return "its scenarios are of different tasks or versions";
+    }
     if (each.collision != proofs[0].collision || each.t_h != proofs[0].t_h ||
         each.knots.rows() != proofs[0].knots.rows() ||
         each.knots.cols() != proofs[0].knots.cols() ||

@@ -189,10 +189,10 @@ void take_search(const Answer& found, Answer& answer) {
 struct FirstTrajectory {
   explicit FirstTrajectory(const TrajectoryProof& proof)
       : value(proof.answer.trajectory.value_between_knots) {
-    rejection = proof.status == Status::kProven
-                    ? fmt::format("only {:.5f} {} is proven of it", proof.guaranteed,
-                                  proof.answer.unit)
-                    : fmt::format("{}: {}", to_string(proof.status), proof.reason.c_str());
+    rejection =
+        proof.status == Status::kProven
+            ? fmt::format("only {:.5f} {} is proven of it", proof.guaranteed, proof.answer.unit)
+            : fmt::format("{}: {}", to_string(proof.status), proof.reason.c_str());
   }
   void tell(TrajectoryProof& proof) const {
     proof.searched = value;

@@ -150,6 +150,27 @@ TEST_F(MapStoreTest, MergesWhatOnlyOnePartHas) {
   }
 }
 
+/// A part without cells yet is no reason to stop; a table that is none is, in one line.
+TEST_F(MapStoreTest, MergesPartsWithoutCells) {
+  open("empty").write();
+  const std::string empty = folder.path() / "empty", full = folder.path() / "full";
+  std::filesystem::remove(folder.path() / "empty" / "map.csv.gz");
+  MapStore store = open("full");
+  store.put(cell(1));
+  store.write();
+  for (const std::vector<std::string>& order : {std::vector{empty, full}, {full, empty}}) {
+    EXPECT_EQ(merge_maps(folder.path() / "all", order), 1u);
+    std::filesystem::remove_all(folder.path() / "all");
+  }
+  EXPECT_THAT(rejection_of([&] { merge_maps(folder.path() / "all", {empty}); }),
+              HasSubstr("empty: got no cell, here and in the other folders"));
+  write_file(folder.path() / "empty" / "map.csv", "i_x,x,beta\n0,0,1\n");
+  EXPECT_THAT(rejection_of([&] {
+                merge_maps(folder.path() / "all", {empty, full});
+              }),
+              HasSubstr("line 1: got 'i_x,x,beta', expected the columns of a map"));
+}
+
 TEST_F(MapStoreTest, MergesNoOtherValuesAndNoOtherMap) {
   open("a").put(cell(1));
   MapCell other = cell(1);

@@ -89,6 +89,8 @@ TEST(TrajectoryListProof, RejectsWhatIsNotAProofOfTheList) {
       [](Claims& c) { c[1].digest ^= 1; },
       [](Claims& c) { c[2].knots(3, 0) += 1e-9; },
       [](Claims& c) { c[2].collision = false; },
+      [](Claims& c) { c[2].problem += "x"; },
+      [](Claims& c) { c[1].version = "0"; },
       [](Claims& c) { c[1].y = c[0].y; },
       [](Claims& c) { c[1].y.array() += 1; },  // what is dead would exert something
   };

@@ -73,7 +73,14 @@ INSTANTIATE_TEST_SUITE_P(
         BadPlan{"CheckBudget", changed(kSmall, [](MapPlan& p) { p.check_budget = -1; }),
                 "uvms/lift", "check_budget: got -1"},
         BadPlan{"Shard", changed(kSmall, [](MapPlan& p) { p.shard = 2; }), "uvms/lift",
-                "shard: got '2/1'"}),
+                "shard: got '2/1'"},
+        BadPlan{"TooManyShards",
+                changed(kSmall,
+                        [](MapPlan& p) {
+                          p.shard = 2;
+                          p.shards = 1000;
+                        }),
+                "uvms/lift", "shard: got 1000 parts, expected at most"}),
     [](const auto& bad) { return std::string(bad.param.name); });
 
 }  // namespace

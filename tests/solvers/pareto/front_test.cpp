@@ -109,6 +109,30 @@ TEST(Front, OfThreeTasksIsOnePosture) {
   EXPECT_THAT(summary(front), HasSubstr("one posture for all tasks"));
 }
 
+/// With few evaluations the search for a weight finds more for one task than the search for it
+/// alone. This is then the task's best, in which all weights are measured.
+TEST(Front, OwnValuesAreTheLargestOfAll) {
+  const std::vector<Goal> goals = {{load_problem("uvms/valve"), "linf_polytope", Wrench::kPure},
+                                   {load_problem("uvms/lift"), "ellipsoid", Wrench::kPure}};
+  FrontPlan plan;
+  plan.points = 3;
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    Options options;
+    options.budget = 300;
+    options.seed = seed;
+    const Front front = pareto(goals, plan, options);
+    ASSERT_GT(front.compromise.theta_r.size(), 0);
+    for (const FrontPoint& point : front.points) {
+      EXPECT_LE(point.t, (1 + 1e-5) * std::sqrt(2)) << seed;
+      for (Eigen::Index k = 0; k < 2; ++k) {
+        EXPECT_LE(point.beta[k], front.own[static_cast<std::size_t>(k)].beta() * (1 + 1e-5))
+            << seed;
+      }
+    }
+    EXPECT_LE(front.compromise.t, 1 + 1e-5) << seed;
+  }
+}
+
 /// Free components only add wrenches: pure against any, any is at least pure at each posture.
 TEST(Front, OfPureAgainstAny) {
   Goal any = planar_goal(0);

@@ -91,6 +91,29 @@ TEST(Sensitivity, LockedJointsRest) {
   EXPECT_GT(locked.best.beta(), locked.at_posture.beta());
 }
 
+/// A dependent joint would move with the others, so where it is locked the posture rests.
+TEST(Sensitivity, LockedDependentJointsRest) {
+  const Problem task = load_problem("mobile/push");
+  ASSERT_FALSE(task.dependent.empty());
+  const int joint = task.dependent.front();
+  const int actuator = static_cast<int>(task.robot.thrusters.size()) + joint;
+  Eigen::VectorXd u_min = task.robot.actuation.u_min, u_max = task.robot.actuation.u_max;
+  u_min[actuator] = -kInfinity;
+  u_max[actuator] = kInfinity;
+  Options options;
+  options.budget = 300;
+  const Sensitivity result = sensitivity(
+      task, task.theta_r_default,
+      {{"dead", task.robot.actuation, false, {}},
+       {"locked", with_limits(task.robot.actuation, u_min, u_max), true, {.locked = {actuator}}}},
+      options);
+  const LossEffect& locked = result.effects[1];
+  ASSERT_TRUE(locked.best.has_value());
+  EXPECT_EQ(locked.best.posture.theta_r, task.theta_r_default);
+  EXPECT_NEAR(locked.best.beta(), locked.at_posture.beta(), 1e-9 * locked.at_posture.beta());
+  EXPECT_NE(result.effects[0].best.posture.theta_r, task.theta_r_default);
+}
+
 TEST(Sensitivity, RejectsOtherTasks) {
   for (const char* name : {"uvms/valve_trajectory", "planar/two_arms"}) {
     const Problem task = load_problem(name);
