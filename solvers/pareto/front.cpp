@@ -93,10 +93,14 @@ class FrontMaker {
     if (find_own()) {
       find_all();
       find_compromise();
-      for (int again = 0; again < kMostAgain && raise_own(); ++again) {
+      bool raised = raise_own();
+      for (int again = 0; raised && again < kMostAgain; ++again) {
         find_all();
         find_compromise();
+        raised = raise_own();
       }
+      for (FrontPoint& point : front_.points) point.weights = weights_at(point.phi);
+      front_.compromise.weights = own_values();
       // Where no posture has a value of all tasks that count, there is no point.
       std::erase_if(front_.points,
                     [](const FrontPoint& point) { return point.theta_r.size() == 0; });
@@ -142,12 +146,10 @@ class FrontMaker {
   void find_all() {
     front_.points.clear();
     if (plan_.points == 0) return;
-    const double a = front_.own[0].beta(), b = front_.own[1].beta();
     for (int i = 0; i < plan_.points; ++i) {
       FrontPoint point;
       point.phi = std::numbers::pi / 2 * i / (plan_.points - 1);
-      point.weights = Eigen::Vector2d(a * std::cos(point.phi), b * std::sin(point.phi));
-      if (point.weights[0] < kLeastWeight * a) point.weights[0] = 0;
+      point.weights = weights_at(point.phi);
       improve(point, options_.budget);
       front_.points.push_back(std::move(point));
     }
@@ -159,15 +161,27 @@ class FrontMaker {
     add_postures();
   }
 
+  Eigen::VectorXd own_values() const {
+    Eigen::VectorXd values(static_cast<Eigen::Index>(goals_.size()));
+    for (Eigen::Index k = 0; k < values.size(); ++k) {
+      values[k] = front_.own[static_cast<std::size_t>(k)].beta();
+    }
+    return values;
+  }
+
+  /// The weights of two tasks.
+  Eigen::VectorXd weights_at(double phi) const {
+    const Eigen::VectorXd own = own_values();
+    Eigen::Vector2d weights(own[0] * std::cos(phi), own[1] * std::sin(phi));
+    if (weights[0] < kLeastWeight * own[0]) weights[0] = 0;
+    return weights;
+  }
+
   /// Searches for one posture for all tasks.
   void find_compromise() {
-    const auto count = static_cast<Eigen::Index>(goals_.size());
-    front_.compromise.weights.resize(count);
-    for (Eigen::Index k = 0; k < count; ++k) {
-      front_.compromise.weights[k] = front_.own[static_cast<std::size_t>(k)].beta();
-    }
+    front_.compromise.weights = own_values();
     front_.compromise.phi =
-        count == 2 ? std::numbers::pi / 4 : std::numeric_limits<double>::quiet_NaN();
+        goals_.size() == 2 ? std::numbers::pi / 4 : std::numeric_limits<double>::quiet_NaN();
     improve(front_.compromise, options_.budget);
   }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "benchmarks/tables/csv.h"
+#include "benchmarks/tables/write_file.h"
 #include "maxwrench/load.h"
 #include "tests/support/coded_tasks.h"
 #include "tests/support/support.h"
