@@ -40,7 +40,8 @@ set(maxwrench_solvers_sources
   search/dp.cpp search/dp_grid.cpp search/dp_level.cpp search/dp_motion.cpp
   solve/scenario_values.cpp solve/too_weak.cpp
   certify/trajectory/instant_bound.cpp certify/trajectory/instant_objective.cpp certify/trajectory/instant_ranges.cpp
-  certify/trajectory/plan_bound.cpp certify/trajectory/quadratic_loads.cpp)
+  certify/trajectory/plan_bound.cpp certify/trajectory/quadratic_loads.cpp
+  map/list_keys.cpp)
 if(MAXWRENCH_WITH_SUNDIALS)
   list(APPEND maxwrench_solvers_sources
     integrator/arkode.cpp integrator/cvode.cpp integrator/ida.cpp integrator/sundials.cpp

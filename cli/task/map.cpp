@@ -120,7 +120,8 @@ void add_map(CLI::App& app, int& exit_status) {
           "pose), azimuth elevation (of c), wrench (its number), thrust torque or the name of "
           "an actuator (factors of limits), environment.gravity, environment.water_density, "
           "environment.current.x (.y .z), trim.buoyancy_mass, links.NAME.mass (values in place of "
-          "the robot's), payload.mass (carried beside the wrench)")
+          "the robot's), payload.mass (carried beside the wrench), wrench.ball.radius, "
+          "uncertainty.trim (.mass.NAME .volume.NAME .payload.mass) (in place of the task's)")
       ->required();
   command
       .add_option("--refine", options->plan.refine,

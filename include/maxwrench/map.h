@@ -32,6 +32,11 @@ inline constexpr long kMostCells = 1'000'000;
 /// * "links.NAME.mass" [kg]: the mass of the body NAME of `Robot::parts`, at its centre of mass.
 /// * "payload.mass" [kg]: the mass of a point at the end effector's origin, which the robot
 ///   carries beside the wrench.
+/// * "wrench.ball.radius" [N or N m]: the radius of the task's ball, unless the value is that of a
+///   ball of radius 1.
+/// * "uncertainty.trim", "uncertainty.mass.NAME", "uncertainty.payload.mass" [kg],
+///   "uncertainty.volume.NAME" [m^3]: half the width of an interval that the task has, where the
+///   centre of the same body is known.
 struct MapAxis {
   std::string name;  ///< the name of the coordinate
   double low = 0,    ///< the first value
@@ -39,7 +44,8 @@ struct MapAxis {
   long count = 1;    ///< number of values; with one value low = high
 };
 
-/// The coordinates that a map can have beside masses of bodies and the names of actuators.
+/// The coordinates that a map can have beside masses of bodies, widths of intervals and the names
+/// of actuators.
 const std::vector<std::string>& map_coordinates();
 
 /// Returns the unit of a coordinate of a map, such as "m", "rad" or "kg"; "-": it has none.

@@ -171,7 +171,9 @@ Args:
         pose; azimuth, elevation, the direction of c [rad]; wrench, the number of one of several;
         thrust, torque or the name of an actuator, a factor of its limits; environment.gravity,
         environment.water_density, environment.current.x (.y, .z), trim.buoyancy_mass,
-        links.NAME.mass, in SI units, in place of the robot's; payload.mass, carried in addition.
+        links.NAME.mass, in SI units, in place of the robot's; payload.mass, carried in addition;
+        wrench.ball.radius, uncertainty.trim, uncertainty.mass.NAME, uncertainty.volume.NAME,
+        uncertainty.payload.mass, in place of the task's.
     refine: how often cells of the grid are halved whose corners differ.
     tolerance: the difference of corners, as a share of the largest, above which they do.
     check: share of the cells that a search from scratch checks; see ``scratch``.

@@ -36,8 +36,8 @@ std::string shown(const MapAxis& axis) {
 void check_axis(const MapAxis& axis, const Problem& task) {
   const bool scales = !scaled_actuators(task.robot, axis.name).empty();
   if (!scales && !is_map_coordinate(axis.name)) {
-    throw_bad_axis(axis, fmt::format("one of the coordinates {}, links.NAME.mass, or the name of "
-                                     "an actuator",
+    throw_bad_axis(axis, fmt::format("one of the coordinates {}, links.NAME.mass, uncertainty.KEY, "
+                                     "or the name of an actuator",
                                      fmt::join(map_coordinates(), " ")));
   }
   if (!scales && (axis.name == "thrust" || axis.name == "torque")) {

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "lib/scenario/current_load.h"
+#include "solvers/map/list_keys.h"
 #include "solvers/map/posed.h"
 
 namespace maxwrench {
@@ -157,7 +158,7 @@ void set_carried(double mass, Problem& task) {
 const std::vector<std::string>& robot_keys() {
   static const std::vector<std::string> kKeys = {kGravityKey,     kDensityKey,     kCurrentKeys[0],
                                                  kCurrentKeys[1], kCurrentKeys[2], kTrimKey,
-                                                 kCarriedKey};
+                                                 kCarriedKey,     kRadiusKey};
   return kKeys;
 }
 
@@ -167,10 +168,11 @@ std::optional<const char*> unit_of_robot_key(const std::string& coordinate) {
   if (axis_of_current(coordinate)) return "m/s";
   const bool mass = coordinate == kTrimKey || coordinate == kCarriedKey;
   if (mass || !body_of_key(coordinate).empty()) return "kg";
-  return std::nullopt;
+  return unit_of_list_key(coordinate);
 }
 
 std::optional<std::string> fault_of_robot_key(const Problem& task, const MapAxis& axis) {
+  if (unit_of_list_key(axis.name)) return fault_of_list_key(task, axis);
   if (axis.name == kDensityKey) return fault_of_density(task, axis);
   if (axis_of_current(axis.name)) return fault_of_current(task, axis);
   if (!body_of_key(axis.name).empty()) return fault_of_mass(task, axis);
@@ -187,7 +189,9 @@ std::optional<std::string> fault_of_robot_key(const Problem& task, const MapAxis
 }
 
 void set_robot_key(const std::string& key, double value, Problem& task) {
-  if (key == kGravityKey) {
+  if (unit_of_list_key(key)) {
+    set_list_key(key, value, task);
+  } else if (key == kGravityKey) {
     task.robot.gravity = value;
   } else if (key == kDensityKey) {
     set_density(value, task);

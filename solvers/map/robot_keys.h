@@ -8,11 +8,12 @@
 
 namespace maxwrench {
 
-/// The keys of numbers of the robot and its environment that a coordinate of a map can be, beside
-/// the masses of bodies (`links.NAME.mass`).
+/// The keys of numbers of the robot, its environment and its list of scenarios (`list_keys.h`) that
+/// a coordinate of a map can be, beside the masses of bodies (`links.NAME.mass`) and the widths of
+/// intervals (`uncertainty.KEY`).
 const std::vector<std::string>& robot_keys();
 
-/// The unit of such a key, or of the mass of a body. Nothing: the coordinate is none of them.
+/// The unit of such a key, mass or width. Nothing: the coordinate is none of them.
 std::optional<const char*> unit_of_robot_key(const std::string& coordinate);
 
 /// What the values of such a coordinate must be, in the words of an error message; nothing: the

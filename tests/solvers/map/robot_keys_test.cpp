@@ -133,6 +133,41 @@ TEST(RobotKeys, ACarriedPointIsAnUncertainOneAtItsWidth) {
 }
 
 /// Without mass, a body leaves its link as it is without it; the masses of a link add up.
+/// A width or a radius with a value is what a task's file with this value gives, with the same
+/// names of scenarios.
+TEST(RobotKeys, NumbersOfAListAreThoseOfTheFile) {
+  struct Key {
+    std::string name, wrench, tables, edited;
+    double value;
+  };
+  const std::string mass = "[uncertainty]\nmass.link_4 = ", cone = "c = [1, 0, 0, 0, 0, 0]\n";
+  const std::string lost = "thrust = 0.1\n[loss]\ncases = [['front_left_vertical']]\n";
+  const std::string ball = "ball = { axes = ['fy', 'fz'], radius = ";
+  for (const Key& key : std::vector<Key>{
+           {"uncertainty.trim", kLift, "[uncertainty]\ntrim = 0.2\ncom.link_2 = [0.01, 0, 0]\n",
+            "[uncertainty]\ntrim = 0.5\ncom.link_2 = [0.01, 0, 0]\n", 0.5},
+           {"uncertainty.mass.link_4", kLift, mass + "0.1\n" + lost, mass + "0.3\n" + lost, 0.3},
+           {"uncertainty.mass.vehicle", kLift, "[uncertainty]\nmass.vehicle = '1%'\n",
+            "[uncertainty]\nmass.vehicle = 0.02\n", 0.02},
+           {"uncertainty.volume.vehicle", kLift, "[uncertainty]\nvolume.vehicle = 0.0001\n",
+            "[uncertainty]\nvolume.vehicle = 0.0004\n", 0.0004},
+           {"uncertainty.payload.mass", kLift,
+            "[uncertainty]\npayload = { mass = 1, com = [0.1, 0, 0.02] }\n",
+            "[uncertainty]\npayload = { mass = 0.4, com = [0.1, 0, 0.02] }\n", 0.4},
+           {"wrench.ball.radius", cone + ball + "0.2 }", "", cone + ball + "0.7 }", 0.7}}) {
+    const bool radius = key.tables.empty();
+    const Problem task = scenario_task(key.wrench, key.tables);
+    const Problem edited =
+        radius ? scenario_task(key.edited, "") : scenario_task(key.wrench, key.edited);
+    const Problem here = with_value(task, key.name, key.value);
+    EXPECT_TRUE(expect_same_values(here, edited, task, key.name)) << key.name;
+    const auto decides = [](const Problem& of) {
+      return describe(of.scenarios, evaluate(of, of.theta_r_default).capability.decides);
+    };
+    EXPECT_EQ(decides(here), decides(edited));
+  }
+}
+
 TEST(RobotKeys, BodiesOfALinkAddUp) {
   const Problem task = load_problem("uvms/lift");
   for (const double mass : {0.0, 0.5, 40.0}) {
@@ -243,6 +278,29 @@ INSTANTIATE_TEST_SUITE_P(
                kParameters,
                {"links.link_2.mass", 0, 1, 2},
                "this body is uncertain"},
+        BadKey{"NoBall", kLift, "", {"wrench.ball.radius", 1, 2, 2}, "no ball of wrenches"},
+        BadKey{"UnitBall",
+               "ball = { axes = ['fx', 'fy'], radius = 1 }",
+               "",
+               {"wrench.ball.radius", 1, 2, 2},
+               "in N the value is that of a ball of radius 1"},
+        BadKey{"EmptyBall",
+               "ball = { axes = ['fx', 'fy'], radius = 2 }",
+               "",
+               {"wrench.ball.radius", 0, 2, 2},
+               "radii above 0"},
+        BadKey{"KnownTrim", kLift, "", {"uncertainty.trim", 0, 1, 2}, "does not have it"},
+        BadKey{"WidthBesideACentre",
+               kLift,
+               kParameters,
+               {"uncertainty.mass.link_2", 0, 0.01, 2},
+               "the body's centre is uncertain as well"},
+        BadKey{"NegativeWidth", kLift, kParameters, {"uncertainty.trim", -1, 1, 2}, "at least 0"},
+        BadKey{"WidthAboveTheMass",
+               kLift,
+               kParameters,
+               {"uncertainty.mass.link_4", 0, 100, 2},
+               "at most the nominal value"},
         BadKey{"Carried", kLift, "", {"payload.mass", -1, 1, 2}, "masses of at least 0"},
         BadKey{"CarriedTwice", "", kCarried, {"payload.mass", 0, 1, 2}, "mass of its payload"},
         BadKey{

@@ -283,6 +283,19 @@ TEST_P(SecondContactList, LoopAllocatesNothing) {
 INSTANTIATE_TEST_SUITE_P(All, SecondContactList, testing::ValuesIn(kContactLists),
                          [](const auto& test) { return test.param.name; });
 
+/// The weight of a payload and uncertain loads do not turn with a pose that is partly free.
+TEST(SecondContactScenarios, GradientsAtAPartlyFreePoseAreThoseOfDifferences) {
+  const Problem task = second_contact_task(
+      kTwoArms, "",
+      "[payload]\ncom = [0.05, 0.03, 0.02]\n[pose.range]\nx = [-0.05, 0.05]\nroll = [-0.4, 0.4]\n"
+      "pitch = [-0.4, 0.4]\n[uncertainty]\nmass.right_link_4 = 0.1\ntrim = 0.2\n"
+      "[loss]\ncases = [['front_left_vertical']]\n");
+  Options options;
+  options.check_collision = false;
+  Random random(6);
+  expect_gradients(task, options, random);
+}
+
 /// With any wrenches the free components of each scenario are those of an ordinary task.
 TEST(SecondContactScenarios, OfAnyWrenchesAreOrdinaryTasks) {
   const Problem task =
