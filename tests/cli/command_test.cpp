@@ -173,7 +173,7 @@ TEST(Command, WriteAndCompareTakeBoxWhereThereAreTooManyFacets) {
   const CommandResult compare =
       run_maxwrench("compare force.toml --budget 50 --seeds 1 --out .", copy.path());
   EXPECT_EQ(compare.exit_status, 0) << compare.err;
-  EXPECT_NE(compare.out.find("\ngrid             condensed     "), std::string::npos)
+  EXPECT_NE(compare.out.find("\ngrid                condensed     "), std::string::npos)
       << compare.out;
 }
 

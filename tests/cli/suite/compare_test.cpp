@@ -24,7 +24,7 @@ TEST(Compare, OfAClosedFormHasNoReference) {
       "compare planar/force --measure ellipsoid --budget 50 --seeds 1 --out .", folder.path());
   EXPECT_EQ(result.exit_status, 0) << result.err;
   EXPECT_EQ(result.out.find("glpk"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("\nnullspace        none "), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("\nnullspace           none "), std::string::npos) << result.out;
 }
 
 /// 25 m away nothing is reached: no value, no number.
@@ -35,8 +35,9 @@ TEST(Compare, SaysThatNothingHasAValue) {
       run_maxwrench("compare two_arms.toml --budget 20 --seeds 2 --out .", copy.path());
   EXPECT_EQ(result.exit_status, 1) << result.err;
   EXPECT_NE(result.out.find("best known - N"), std::string::npos) << result.out;
-  EXPECT_NE(result.out.find("\ngrid             condensed          20   0 of 2         -       - "),
-            std::string::npos)
+  EXPECT_NE(
+      result.out.find("\ngrid                condensed          20   0 of 2         -       - "),
+      std::string::npos)
       << result.out;
   EXPECT_EQ(result.out.find("2 of 2"), std::string::npos) << result.out;
   for (const char* word : {"inf ", "nan", "inf,"}) {
