@@ -57,7 +57,7 @@ std::string header_of(const fs::path& folder) {
 }
 
 /// The columns of the first folder that has cells.
-std::vector<std::string> columns_of(const std::vector<fs::path>& folders) {
+std::vector<std::string> merged_columns(const std::vector<fs::path>& folders) {
   for (const fs::path& folder : folders) {
     const std::string header = header_of(folder);
     if (header.empty()) continue;
@@ -144,7 +144,7 @@ std::size_t merge_maps(const fs::path& out, const std::vector<std::string>& fold
                       (folder / "map.csv.part").string()));
     }
   }
-  const std::vector<std::string> columns = columns_of(all);
+  const std::vector<std::string> columns = merged_columns(all);
   std::size_t axes = 0;
   while (axes < columns.size() && columns[axes].starts_with("i_")) ++axes;
   Table merged(out / kMapTable, columns, axes);

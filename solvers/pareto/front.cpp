@@ -23,7 +23,7 @@ constexpr long kAgain = 4;
 constexpr double kLeastWeight = 1e-12;
 constexpr double kSamePlace = 1e-12;
 /// A task's own best is replaced by values that are larger by this share.
-constexpr double kBetter = 1e-6;
+constexpr double kMoreThanOwn = 1e-6;
 /// How often the front is made again with better ones.
 constexpr int kMostAgain = 3;
 
@@ -195,7 +195,7 @@ class FrontMaker {
       const auto take = [&](const FrontPoint& point) {
         if (point.theta_r.size() == 0) return;
         Answer answer = answer_at(k, point.theta_r);
-        if (!answer.has_value() || !(answer.beta() > own.beta() * (1 + kBetter))) return;
+        if (!answer.has_value() || !(answer.beta() > own.beta() * (1 + kMoreThanOwn))) return;
         postures_[k] = point.theta_r;
         own = std::move(answer);
         raised = true;

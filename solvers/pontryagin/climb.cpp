@@ -21,10 +21,10 @@ constexpr double kSpeeds = 0.98;         // what the stiffness lets exceed is mo
 constexpr double kUnlimitedReach = 1e6;  // factor of the limits of efforts
 constexpr int kFirstSteps = 40, kLaterSteps = 15;  // of Newton's method
 constexpr double kFirstFactor = 0.5, kLargestFactor = 0.99, kSmallestFactor = 0.1;
-constexpr int kFewSteps = 3;           // then the next factor is smaller
-constexpr double kLeastShare = 1e-3;   // of epsilon, at the end
-constexpr double kRisen = 1e-6;        // relative, of the mass
-constexpr int kSwitchingSamples = 20;  // per interval, to find where efforts change their sign
+constexpr int kFewSteps = 3;            // then the next factor is smaller
+constexpr double kLeastEpsilon = 1e-3;  // of epsilon, at the end
+constexpr double kRisen = 1e-6;         // relative, of the mass
+constexpr int kSwitchingSamples = 20;   // per interval, to find where efforts change their sign
 
 /// The largest effort at a node, in units of its weight.
 double largest_effort(Shooting& shooting, const Problem& problem, const Extremal& extremal) {
@@ -93,7 +93,7 @@ const char* lower_epsilon(Shooting& shooting, Extremal& at,
   const double first = at.index.epsilon;
   double factor = kFirstFactor;
   Extremal before;
-  while (at.index.epsilon > kLeastShare * first) {
+  while (at.index.epsilon > kLeastEpsilon * first) {
     Extremal next = predicted_extremal(before, at, factor);
     const int steps = shooting.solve(next, true, kLaterSteps);
     if (shooting.ended()) return "budget";
