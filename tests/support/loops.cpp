@@ -62,9 +62,15 @@ Eigen::VectorXd loop_coordinates(const Problem& problem, const LoopCoordinates& 
   return x;
 }
 
-PostureSource::PostureSource(const Problem& problem, const std::string& measure)
+ContactForces forces_in_bound(const Problem& problem, const std::string& measure) {
+  const bool of_base = measure == "linf_polytope" && base_determines_forces(problem);
+  return of_base ? ContactForces::kOfBase : ContactForces::kShares;
+}
+
+PostureSource::PostureSource(const Problem& problem, const std::string& measure,
+                             ContactForces forces)
     : problem_(problem),
-      coordinates_(problem),
+      coordinates_(problem, forces),
       model_(problem),
       program_(make_wrench_program(problem, Wrench::kPure)),
       measure_(find_measure(measure).make(

@@ -20,10 +20,10 @@ inline const std::vector<const char*> kLoopProblems = {
     "mobile/push",        "fixed/push",      "mobile/push_any_height",
     "dual_arm/bar_alone", "random, fixed",   "random, x",
     "random, yaw",        "random, x y yaw", "random, x y z yaw",
-    "random, free tool",  "planar/two_arms", "dual_arm/bar_wall"};
+    "random, free tool",  "planar/two_arms", "dual_arm/bar_wall", "dual_arm/two_arms"};
 
 /// The number of the last ones, whose second contact bears forces.
-constexpr std::ptrdiff_t kLoopProblemsWithForces = 2;
+constexpr std::ptrdiff_t kLoopProblemsWithForces = 3;
 
 /// A shipped problem, or a random one with these free axes of the base.
 Problem loop_problem(const std::string& name);
@@ -42,10 +42,14 @@ struct ValuedPosture {
   double value = -kInfinity;
 };
 
+/// The coordinates that the bound of a measure takes.
+ContactForces forces_in_bound(const Problem& problem, const std::string& measure);
+
 /// Draws postures of a problem, which must outlive it, with all IK solutions.
 class PostureSource {
  public:
-  PostureSource(const Problem& problem, const std::string& measure);
+  PostureSource(const Problem& problem, const std::string& measure,
+                ContactForces forces = ContactForces::kShares);
 
   /// Null if a random theta_r has no posture, or the posture has no value.
   const ValuedPosture* draw(Random& random);

@@ -10,6 +10,7 @@
 #include "lib/scenario/ball_across.h"
 #include "lib/scenario/scenario_list.h"
 #include "solvers/certify/bound/bounds.h"
+#include "solvers/certify/bound/loop_posture.h"
 #include "solvers/certify/trajectory/instant_bound.h"
 #include "solvers/solve/scenario_alone.h"
 
@@ -330,8 +331,9 @@ bool has_still_water(const ScenarioList& list) {
 }
 
 std::unique_ptr<Bound> make_alone_list_bound(const Problem& problem, Wrench wrench) {
-  const Eigen::Index shares = problem.contact_columns();
-  if (shares > 0) {
+  const bool of_base = base_determines_forces(problem);  // as the bounds of ordinary tasks
+  const Eigen::Index shares = of_base ? 0 : problem.contact_columns();
+  if (problem.contact_columns() > 0) {
     require_wrenches(problem, wrench);
   } else {
     require_closed_form(problem, wrench);

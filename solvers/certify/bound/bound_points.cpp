@@ -54,10 +54,12 @@ void ProgramPoints::add_corners(const Coordinates& chain, Eigen::Index size) {
   }
 }
 
-bool ProgramPoints::add_largest(const Eigen::VectorXd& values, double above) {
+bool ProgramPoints::add_largest(const Eigen::VectorXd& values, double above,
+                                const std::function<int(int)>& number) {
   list_largest(values, above, kMostAdded, order_);
   const std::size_t before = ids_.size();
-  for (const int id : order_) {
+  for (const int at : order_) {
+    const int id = number ? number(at) : at;
     if (std::find(ids_.begin(), ids_.end(), id) == ids_.end()) ids_.push_back(id);
   }
   if (ids_.size() == before || count() > kMost) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "solvers/certify/bound/multi_affine.h"
@@ -42,9 +43,11 @@ class ProgramPoints {
   void add(int id) { ids_.push_back(id); }
   /// Adds the corners of a box, if there are not too many.
   void add_corners(const Coordinates& chain, Eigen::Index size);
-  /// Adds some of the numbers with the largest values above a limit. Returns false if there are
-  /// none that are new, or no room for them.
-  bool add_largest(const Eigen::VectorXd& values, double above);
+  /// Adds the numbers of some of the largest values above a limit, which are their places, or
+  /// those that `number` makes of them. Returns false if there are none that are new, or no room
+  /// for them.
+  bool add_largest(const Eigen::VectorXd& values, double above,
+                   const std::function<int(int)>& number = {});
 
  private:
   std::vector<int> ids_, order_;

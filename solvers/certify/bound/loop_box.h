@@ -21,7 +21,7 @@ class LoopBox {
   /// The same with another multiplier of a, for h = slopes'a.
   void weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& slopes,
              const Eigen::VectorXd& nu);
-  const Eigen::VectorXd& g() const { return g_; }
+  Eigen::VectorXd& g() { return g_; }
   const Eigen::VectorXd& h() const { return h_; }
 
   /// Computes tau, a and f at control point v.

@@ -17,12 +17,13 @@ Coordinates part_of_chain(const Coordinates& chain, int from, int to) {
 
 }  // namespace
 
-LoopModel::LoopModel(const Problem& problem)
-    : coordinates(problem), n(problem.robot.velocities()), problem_(problem) {
+LoopModel::LoopModel(const Problem& problem, ContactForces forces)
+    : coordinates(problem, forces), n(problem.robot.velocities()), problem_(problem) {
   require_few_control_points(problem.name, coordinates.chain);
   size = coordinates.chain.points();
   tau = a = Eigen::VectorXd::Zero(n);
   LoopPosture posture(problem, coordinates);
+  if (forces == ContactForces::kOfBase) add_levers(posture);
   add_loads(posture);
   add_joints(posture);
   add_equations(posture);
@@ -44,6 +45,14 @@ void LoopModel::add_part(Kind kind, int from, int to, const std::vector<int>& ro
   parts.push_back(std::move(part));
 }
 
+void LoopModel::add_levers(LoopPosture& posture) {
+  levers.emplace(part_of_chain(coordinates.chain, 0, coordinates.second.to),
+                 Eigen::VectorXd::Zero(coordinates.lower.size()), [&](const ExtendedVector& x) {
+                   posture.set(x);
+                   return ExtendedVector(posture.levers().reshaped());
+                 });
+}
+
 /// Rows of the base's linear axes depend on the yaw only, or on the stretch from the yaw to the
 /// free coordinates if the wrench turns with the pose. The other rows of the base, those of joints
 /// outside the chain, and the linear axes of a dependent base depend on everything up to the free
@@ -54,6 +63,7 @@ void LoopModel::add_loads(LoopPosture& posture) {
   std::vector<int> pushed, others;
   for (int i = 0; i < static_cast<int>(n); ++i) {
     const bool slides = i < axes && robot.base_axes[static_cast<std::size_t>(i)] < 3;
+    if (slides && levers) continue;  // they determine the contact's force
     if (slides && !coordinates.base_is_dependent) {
       pushed.push_back(i);
     } else if (std::find(coordinates.joints.begin(), coordinates.joints.end(), i - axes) ==
@@ -67,6 +77,11 @@ void LoopModel::add_loads(LoopPosture& posture) {
       posture.set(x);
       ExtendedVector values(2 * static_cast<Eigen::Index>(rows.size()));
       values << posture.loads().head(n)(rows), posture.loads().tail(n)(rows);
+      if (levers) {
+        const MatrixX<Extended> A = posture.levers()(rows, Eigen::all);
+        values.head(A.rows()) -= A * posture.loads().head<3>();
+        values.tail(A.rows()) -= A * posture.loads().segment<3>(n);
+      }
       return values;
     });
   };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "solvers/certify/bound/loop_posture.h"
@@ -24,25 +25,31 @@ struct LoopPart {
 
 /// tau = tau_d + J_2'C_2 w_2 at t = 0, a = J'c plus the change of J_2'C_2 w_2 per unit of t, and
 /// the equations f(x) = 0, as sums of parts.
+///
+/// With `ContactForces::kOfBase`, tau = tau_d - A tau_d,f and a = J'c - A (J'c)_f, where f are the
+/// base's linear rows, which are left out, and A are the levers. The balance of the other rows is
+/// B u = tau + t a + A B_f u.
 struct LoopModel {
   /// Keeps a reference to the problem. Throws std::invalid_argument with one line if there are too
   /// many control points.
-  explicit LoopModel(const Problem& problem);
+  explicit LoopModel(const Problem& problem, ContactForces forces = ContactForces::kShares);
 
   /// Takes the equations out.
   void leave_equations();
 
   LoopCoordinates coordinates;
   std::vector<LoopPart> parts;
-  Eigen::Index n = 0;         ///< rows of tau_d
-  Eigen::Index m = 0;         ///< equations
-  Eigen::Index size = 0;      ///< control points
-  Eigen::VectorXd tau, a, f;  ///< magnitudes of the rows
+  std::optional<MultiAffine> levers;  ///< A column by column, along the second arm; `kOfBase`
+  Eigen::Index n = 0;                 ///< rows of tau_d
+  Eigen::Index m = 0;                 ///< equations
+  Eigen::Index size = 0;              ///< control points
+  Eigen::VectorXd tau, a, f;          ///< magnitudes of the rows
 
  private:
   using Kind = LoopPart::Kind;
 
   void add_loads(LoopPosture& posture);
+  void add_levers(LoopPosture& posture);
   void add_joints(LoopPosture& posture);
   void add_equations(LoopPosture& posture);
   void add_part(Kind kind, int from, int to, const std::vector<int>& rows,

@@ -81,7 +81,16 @@ double least_force(const Problem& problem) {
 
 }  // namespace
 
-LoopCoordinates::LoopCoordinates(const Problem& problem)
+bool base_determines_forces(const Problem& problem) {
+  if (!problem.contact || problem.robot.base_axes.size() != 6) return false;
+  const Contact& contact = *problem.contact;
+  return contact.C.cols() == 3 && contact.C.bottomRows<3>().isZero(0) &&
+         singular_values(contact.C.topRows<3>()).minCoeff() > 1e-6 &&
+         contact.w_min.array().maxCoeff() == -kInfinity &&
+         contact.w_max.array().minCoeff() == kInfinity;
+}
+
+LoopCoordinates::LoopCoordinates(const Problem& problem, ContactForces forces)
     : base_is_dependent(problem.robot.base_axes.size() == 6 ||
                         (problem.dependent.empty() && !problem.contact)) {
   const auto own = static_cast<int>(problem.redundancy());
@@ -110,7 +119,7 @@ LoopCoordinates::LoopCoordinates(const Problem& problem)
   free = {first.to, chain.count()};
   while (at < own) add_own(problem.contact->surface == Surface::kCircle);
   regrasp = {free.to, chain.count()};
-  if (problem.contact) limit_forces(problem);
+  if (problem.contact && forces == ContactForces::kShares) limit_forces(problem);
   for (Eigen::Index k = 0; k < w_min.size(); ++k) add(next++, false, 0, 1);
   shares = {regrasp.to, chain.count()};
 }
@@ -230,6 +239,13 @@ ExtendedVector LoopPosture::forces(const ExtendedVector& w) const {
   const auto touching = static_cast<std::size_t>(contact.end_effector);
   kinematics_.jacobian(problem_.robot.end_effectors[touching], R_base_, J_2);
   return J_2.transpose() * rotated(contact_.R, h);
+}
+
+MatrixX<Extended> LoopPosture::levers() const {
+  const auto touching = static_cast<std::size_t>(problem_.contact->end_effector);
+  Matrix6X<Extended> J_2;
+  kinematics_.jacobian(problem_.robot.end_effectors[touching], Matrix3<Extended>::Identity(), J_2);
+  return J_2.topRows<3>().transpose();
 }
 
 Pose<Extended> LoopPosture::link(int k) const {

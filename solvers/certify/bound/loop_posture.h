@@ -6,6 +6,16 @@
 
 namespace maxwrench {
 
+/// How the forces of a second contact enter the rows of tau.
+enum class ContactForces {
+  kShares,  ///< as coordinates of x
+  kOfBase   ///< as what the thrusters and the loads leave on the base: `levers`
+};
+
+/// Whether a second contact has all three forces, without limits, and no torques, on a base that
+/// moves along all six axes. The base's linear axes then determine the forces.
+bool base_determines_forces(const Problem& problem);
+
 /// All coordinates x of a posture:
 ///
 ///     x = [theta_r; dependent joints; joints of a second arm; yaw; shares of contact forces].
@@ -27,8 +37,9 @@ struct LoopCoordinates {
     int count() const { return to - from; }
   };
 
-  /// Throws std::invalid_argument with one line if forces of a second contact have no limits.
-  explicit LoopCoordinates(const Problem& problem);
+  /// Throws std::invalid_argument with one line if shares have no limits. With `kOfBase` there are
+  /// no shares.
+  explicit LoopCoordinates(const Problem& problem, ContactForces forces = ContactForces::kShares);
 
   Coordinates chain;  ///< as indices into x
   Stretch second, yaw, first, free, regrasp, shares;
@@ -69,6 +80,10 @@ class LoopPosture {
   /// J_2'C_2 w_2, n, at t = 0; and its change per unit of t.
   ExtendedVector forces() const { return forces(w_); }
   ExtendedVector forces_by_t() const { return forces(v_); }
+  /// A (n×3): the second contact's force F, in base axes, adds A F to tau. The first rows of A are
+  /// the identity, and A depends on the second arm's joints only. The base's linear rows give F =
+  /// B_f u - tau_f - t a_f.
+  MatrixX<Extended> levers() const;
   /// The rows of the left and the right side of the base's equations, with k joints on the left.
   ExtendedVector left(int k) const;
   ExtendedVector right(int k) const;

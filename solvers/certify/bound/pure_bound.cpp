@@ -12,6 +12,7 @@
 #include "solvers/certify/bound/loop_box.h"
 #include "solvers/certify/bound/loop_linear.h"
 #include "solvers/certify/bound/multiplier_program.h"
+#include "solvers/certify/bound/thrust_points.h"
 
 namespace maxwrench {
 namespace {
@@ -20,20 +21,24 @@ enum class PureMeasure { kPolytope, kSmallestEffort, kEllipsoid };
 
 class PureBound final : public Bound {
  public:
-  /// K is B^+ for the L2 polytope and W_u B^+ for the ellipsoid; it is not used otherwise.
-  PureBound(std::shared_ptr<const LoopModel> model, double ceiling, const Zonotope& set,
-            const Eigen::MatrixXd& K, PureMeasure measure)
+  /// K is B^+ for the L2 polytope and W_u B^+ for the ellipsoid; it is not used otherwise. With
+  /// `thrust`, the set has no thrusters.
+  PureBound(std::shared_ptr<const LoopModel> model, double ceiling,
+            std::shared_ptr<const Zonotope> set, const Eigen::MatrixXd& K, PureMeasure measure,
+            std::optional<ThrustPoints> thrust)
       : model_(std::move(model)),
         ceiling_(ceiling),
-        set_(set),
+        set_(std::move(set)),
         K_(K),
         measure_(measure),
         equation_rows_(equation_rows(*model_)),
-        support_(set, by_effort()),
+        support_(*set_, by_effort()),
+        thrust_(std::move(thrust)),
         box_(*model_),
         linear_(*model_),
-        program_(extended_B(), set.u_min.head(found_by_program() ? set.actuators() : 0),
-                 set.u_max.head(found_by_program() ? set.actuators() : 0), ProgramPoints::kMost) {
+        program_(extended_B(), set_->u_min.head(found_by_program() ? set_->actuators() : 0),
+                 set_->u_max.head(found_by_program() ? set_->actuators() : 0),
+                 ProgramPoints::kMost) {
     if (!found_by_program()) ellipsoid_.emplace(K);
     entries_.setZero(free_rows() + equation_rows_);
   }
@@ -54,6 +59,7 @@ class PureBound final : public Bound {
                 BoxProof& proof) override {
     proof.forget(high);
     if (!box_.set(lower, upper)) return;
+    if (thrust_) thrust_->set(lower, upper);
     if (model_->coordinates.forces_grow() && low < 0) {  // only t >= 0 is known
       if (!(high > 0)) return;
       bound_from(lower, upper, 0, high, proof);
@@ -64,7 +70,7 @@ class PureBound final : public Bound {
   }
 
   std::unique_ptr<Bound> clone() const override {
-    return std::make_unique<PureBound>(model_, ceiling_, set_, K_, measure_);
+    return std::make_unique<PureBound>(model_, ceiling_, set_, K_, measure_, thrust_);
   }
 
  private:
@@ -146,9 +152,13 @@ class PureBound final : public Bound {
     }
     box_.weigh(reach_, nu_);
     const double share = kBoundRounding * kMostSpread;
-    const double off = (ellipsoid_ ? ellipsoid_->rounding() : support_.rounding()) +
-                       share * (sizes_.dot(model_->tau) + nu_.cwiseAbs().dot(model_->f));
+    double off = (ellipsoid_ ? ellipsoid_->rounding() : support_.rounding()) +
+                 share * (sizes_.dot(model_->tau) + nu_.cwiseAbs().dot(model_->f));
     const double off_a = share * sizes_.dot(model_->a);
+    if (thrust_) {
+      thrust_->weigh(lambda_, box_.g());
+      off += share * lambda_.cwiseAbs().dot(thrust_->sizes());
+    }
     s_ = s;
     return values_.bound(s, box_.g(), box_.h(), off, off_a, low, high);
   }
@@ -194,12 +204,13 @@ class PureBound final : public Bound {
   }
 
   void write_point(Eigen::Index i) {
-    const Eigen::Index id = points_.ids()[static_cast<std::size_t>(i)];
-    const bool high = id >= model_->size;
-    const double t = high ? values_.most_t() : values_.least_t();
-    box_.read(high ? id - model_->size : id);
+    const Eigen::Index id = points_.ids()[static_cast<std::size_t>(i)], size = model_->size;
+    const double t = id / size % 2 != 0 ? values_.most_t() : values_.least_t();
+    const Eigen::Index v = id % size;
+    box_.read(v);
     const Eigen::Index rows = free_rows();
     load_ = box_.tau() + t * box_.a();
+    if (thrust_) thrust_->add(v, static_cast<int>(id / (2 * size)), load_);
     double cost = t;
     if (ellipsoid_) {
       cost += s_ - lambda_.dot(load_);  // lambda and its support stay the same
@@ -217,9 +228,18 @@ class PureBound final : public Bound {
   /// Returns false if there are no points to add, or no room for them.
   bool add_points(double least) {
     const Eigen::Index before = points_.count();
-    if (!points_.add_largest(values_.at(), least - s_)) return false;
+    if (!points_.add_largest(values_.at(), least - s_, [this](int id) { return numbered(id); })) {
+      return false;
+    }
     write_points(before);
     return true;
+  }
+
+  /// The number of a point with the thrusters' forces that are worst for lambda.
+  int numbered(int id) const {
+    if (!thrust_) return id;
+    const auto size = static_cast<int>(model_->size);
+    return id + 2 * size * thrust_->pattern(id % size);
   }
 
   void keep_basis(std::vector<int>& basis) const {
@@ -232,12 +252,13 @@ class PureBound final : public Bound {
 
   std::shared_ptr<const LoopModel> model_;
   const double ceiling_;
-  const Zonotope& set_;
+  const std::shared_ptr<const Zonotope> set_;
   const Eigen::MatrixXd K_;
   const PureMeasure measure_;
   const Eigen::Index equation_rows_;
   BoxSupport support_;
   std::optional<EllipsoidSupport> ellipsoid_;
+  std::optional<ThrustPoints> thrust_;
   LoopBox box_;
   LoopLinear linear_;
   MultiplierProgram program_;
@@ -262,12 +283,23 @@ std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string
     kind = PureMeasure::kEllipsoid;
     K = weighted_inverse(problem.robot, measure);
   }
-  auto model = std::make_shared<LoopModel>(problem);
+  auto set = std::make_shared<Zonotope>(problem.robot.actuation);
+  const auto thrusters = static_cast<Eigen::Index>(problem.robot.thrusters.size());
+  const bool of_base = kind == PureMeasure::kPolytope &&
+                       thrusters <= ThrustPoints::kMostThrusters && base_determines_forces(problem);
+  auto model = std::make_shared<LoopModel>(
+      problem, of_base ? ContactForces::kOfBase : ContactForces::kShares);
+  std::optional<ThrustPoints> thrust;
+  if (of_base) {
+    thrust.emplace(*model, *set, thrusters);
+    set->B.leftCols(thrusters).setZero();
+  }
   double ceiling = kInfinity;
-  if (model->coordinates.base_is_dependent && !model->coordinates.forces_grow()) {
+  if (model->coordinates.base_is_dependent && !LoopCoordinates(problem).forces_grow()) {
     ceiling = pure_ceiling(problem, problem.c, problem.robot.actuation, ceiling_sizes(problem));
   }
-  return std::make_unique<PureBound>(std::move(model), ceiling, problem.robot.actuation, K, kind);
+  return std::make_unique<PureBound>(std::move(model), ceiling, std::move(set), K, kind,
+                                     std::move(thrust));
 }
 
 }  // namespace maxwrench

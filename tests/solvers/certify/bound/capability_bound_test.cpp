@@ -161,10 +161,12 @@ TEST(CapabilityBound, RejectsWhatTheFreeAxesDoNotLimit) {
   EXPECT_TRUE(rejects({3, 4, 5}, force));
 }
 
-/// Its 7 joints and 4 coordinates that enter as themselves have 3^7 2^4 = 34,992 control points.
+/// With shares, 7 joints and 4 coordinates that enter as themselves have 3^7 2^4 = 34,992 control
+/// points.
 TEST(CapabilityBound, TakesTwoArmsThatBothExertForces) {
   const Problem problem = load_problem("dual_arm/two_arms");
   EXPECT_NO_THROW(make_capability_bound(problem, "linf_polytope", Wrench::kPure));
+  EXPECT_NO_THROW(make_capability_bound(problem, "l2_polytope", Wrench::kPure));
 }
 
 /// A torque at the second contact is in no balance of forces of the base.

@@ -43,7 +43,7 @@ bool holds(const LoopBoxOf& box, const Eigen::VectorXd& x) {
 
 void test_pairs(const Problem& problem, const std::string& measure) {
   const auto bound = make_capability_bound(problem, measure, Wrench::kPure);
-  PostureSource source(problem, measure);
+  PostureSource source(problem, measure, forces_in_bound(problem, measure));
   Random random(4);
   BoxProof proof;
   int bounded = 0, finite = 0;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "maxwrench/load.h"
 #include "tests/support/loops.h"
 
 namespace maxwrench {
@@ -59,6 +60,45 @@ TEST_P(LoopModelOf, IsASumOfMultiAffineParts) {
     const Eigen::VectorXd gap = all_equations(problem, loop, model);
     ASSERT_EQ(f.size(), gap.size());
     EXPECT_LT((f - gap).cwiseAbs().maxCoeff(), 1e-9);
+  }
+}
+
+/// Without the base's linear rows, the force of the contact is what these rows leave.
+TEST(LoopModel, LeavesOutTheForcesThatTheBaseDetermines) {
+  Problem problem = load_problem("dual_arm/two_arms");
+  problem.c << 0.6, 0, 0, 0, 0.8, 0;  // with a force, which loads the second arm as well
+  ASSERT_TRUE(base_determines_forces(problem));
+  const LoopModel model(problem, ContactForces::kOfBase);
+  const LoopModel with_shares(problem);
+  const Eigen::Index count = model.coordinates.lower.size(), others = model.n - 3;
+  EXPECT_EQ(with_shares.coordinates.lower.size(), count + 3);
+  EXPECT_EQ(with_shares.m, model.m);
+  LoopPosture loop(problem, model.coordinates);
+  Random random(2);
+  for (int sample = 0; sample < 20; ++sample) {
+    const Eigen::VectorXd x =
+        Eigen::VectorXd::NullaryExpr(count, [&] { return random.uniform(-2, 2); });
+    Eigen::VectorXd tau = Eigen::VectorXd::Zero(model.n), a = tau;
+    for (const LoopPart& part : model.parts) {
+      if (part.kind == LoopPart::Kind::kEquations) continue;
+      const Eigen::VectorXd values = part.f.evaluate(x);
+      const auto rows = static_cast<Eigen::Index>(part.rows.size());
+      tau(part.rows) += values.head(rows);
+      a(part.rows) += values.tail(rows);
+    }
+    loop.set(x.cast<Extended>());
+    // The thrusters' force on the base is F, so the contact bears F less the other loads.
+    const Eigen::Vector3d F = random_vector(random);
+    const double t = random.uniform(-2, 2);
+    const Eigen::VectorXd loads =
+        (loop.loads().head(model.n) + t * loop.loads().tail(model.n)).cast<double>();
+    const Eigen::MatrixXd A = loop.levers().cast<double>();
+    const Eigen::VectorXd expected = loads + A * (F - loads.head<3>());
+    const Eigen::VectorXd found =
+        tau + t * a + model.levers->evaluate(x).reshaped(model.n, 3) * F;
+    EXPECT_LT((expected.head<3>() - F).norm(), 1e-12);
+    EXPECT_LT((found - expected).tail(others).cwiseAbs().maxCoeff(),
+              1e-9 * (1 + expected.cwiseAbs().maxCoeff()));
   }
 }
 

@@ -19,7 +19,7 @@ TEST_P(LoopPostureOf, IsThePosture) {
   const Eigen::Index n = problem.robot.velocities();
   Random random(1);
   int seen = 0;
-  for (int sample = 0; sample < 200; ++sample) {
+  for (int sample = 0; sample < 400; ++sample) {
     const ValuedPosture* const at = source.draw(random);
     if (at == nullptr) continue;
     ++seen;
@@ -42,6 +42,10 @@ TEST_P(LoopPostureOf, IsThePosture) {
       }
     }
     if (!problem.contact) continue;
+    if (l > 0 && problem.robot.base_axes.size() == 6) {  // the base bears the contact's force
+      const ExtendedVector forces = loop.forces();
+      EXPECT_LT((loop.levers() * forces.head<3>() - forces).cwiseAbs().maxCoeff(), 1e-12 * size);
+    }
     EXPECT_LT((loop.touching() - loop.touched()).cwiseAbs().maxCoeff(), 1e-8);
   }
   EXPECT_GT(seen, 10);
