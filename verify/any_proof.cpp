@@ -165,6 +165,11 @@ std::unique_ptr<ValueProof> make_value_proof(const Problem& problem, const FormM
     throw std::invalid_argument(problem.name +
                                 ": got a list of scenarios, expected linf_polytope and pure");
   }
+  if (wrench == Wrench::kPure && problem.contact_columns() > 0) {
+    if (measure == "linf_polytope") return make_braced_proof(problem, model, equations);
+    throw std::invalid_argument("measure: got '" + measure +
+                                "', expected linf_polytope with forces of a second contact");
+  }
   if (wrench == Wrench::kPure) return make_pure_proof(problem, model, equations, measure);
   if (measure == "linf_polytope") return make_any_proof(problem, model);
   throw std::invalid_argument("wrench: got 'any', expected pure with measure " + measure);

@@ -51,6 +51,19 @@ std::vector<Eigen::Vector3d> points_of(const InscribedBox& core) {
   return points;
 }
 
+/// Whether some row has a term of a variable other than 1.
+bool moves(const FormShape& shape, std::size_t variable,
+           const std::vector<std::array<FormRow, 3>>& points) {
+  for (const std::array<FormRow, 3>& point : points) {
+    for (const FormRow& row : point) {
+      for (const int index : row.index) {
+        if (shape.digit(index, variable) != 0) return true;
+      }
+    }
+  }
+  return false;
+}
+
 /// Subtracted from the reach, because points are moved into link axes with rounded numbers.
 constexpr double kHair = 1e-9;
 
@@ -59,16 +72,25 @@ constexpr double kHair = 1e-9;
 bool CollisionProof::collides(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                               int pair) {
   const CollisionChecker* const checker = problem_.robot.collision.get();
-  if (checker == nullptr || pair < 0 || pair >= checker->pairs() || !box_.set(lower, upper)) {
-    return false;
-  }
+  if (checker == nullptr || pair < 0 || pair >= checker->pairs()) return false;
   set_products(model_.shape(), (lower + upper) / 2, terms_);
   for (const Movers& each : movers(pair)) {
+    if (!set_box(lower, upper, each)) continue;
     for (const auto& point : each.points) {
       if (may_be_close(each, point) && is_close(each, point)) return true;
     }
   }
   return false;
+}
+
+/// Of coordinates that move no point any value will do. Their boxes may be too wide to enclose.
+bool CollisionProof::set_box(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                             const Movers& movers) {
+  lower_ = lower;
+  upper_ = upper;
+  lower_(movers.others).setZero();
+  upper_(movers.others).setZero();
+  return box_.set(lower_, upper_);
 }
 
 const std::vector<CollisionProof::Movers>& CollisionProof::movers(int pair) {
@@ -85,7 +107,7 @@ const std::vector<CollisionProof::Movers>& CollisionProof::movers(int pair) {
 
 CollisionProof::Movers CollisionProof::movers(const InscribedBox& core, const InscribedBox& other,
                                               double reach) const {
-  Movers result{other.half_sizes, reach - kHair, {}};
+  Movers result{other.half_sizes, reach - kHair, {}, {}};
   for (const Eigen::Vector3d& at : points_of(core)) {
     const Eigen::Vector3d in_link = core.placement.R * at + core.placement.p;
     const FormVector x = model_.seen(core.link, model_.constant(in_link), other.link);
@@ -93,6 +115,10 @@ CollisionProof::Movers CollisionProof::movers(const InscribedBox& core, const In
     const std::vector<double>& far = model_.far();
     result.points.push_back(
         {FormRow(in_core[0], far), FormRow(in_core[1], far), FormRow(in_core[2], far)});
+  }
+  const FormShape& shape = model_.shape();
+  for (std::size_t i = 0; i < shape.terms.size(); ++i) {
+    if (!moves(shape, i, result.points)) result.others.push_back(shape.coordinates[i]);
   }
   return result;
 }

@@ -27,9 +27,11 @@ class CollisionProof {
     Eigen::Vector3d half_sizes;  ///< of the other core
     double reach = 0;
     std::vector<std::array<FormRow, 3>> points;
+    std::vector<int> others;  ///< coordinates of x that move none of the points
   };
   const std::vector<Movers>& movers(int pair);
   Movers movers(const InscribedBox& core, const InscribedBox& other, double reach) const;
+  bool set_box(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const Movers& movers);
   bool is_close(const Movers& movers, const std::array<FormRow, 3>& point);
   bool may_be_close(const Movers& movers, const std::array<FormRow, 3>& point) const;
 
@@ -39,6 +41,7 @@ class CollisionProof {
   std::map<int, std::vector<Movers>> known_;
   std::vector<double> terms_;  ///< products of terms at the centre of the box, rounded
   std::array<std::vector<Narrow>, 3> x_;
+  Eigen::VectorXd lower_, upper_;
 };
 
 }  // namespace maxwrench

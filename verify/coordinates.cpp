@@ -11,7 +11,8 @@ void throw_unless_supported(bool supports, const Problem& problem) {
   if (supports) return;
   throw std::invalid_argument(problem.name +
                               ": expected a static task in which a second contact, if there is "
-                              "one, exerts nothing, and joints that move the end effector");
+                              "one, exerts nothing or any force on a base with six axes, and "
+                              "joints that move the end effector");
 }
 
 /// A joint with a gear is taken to rest, as its leader does.
@@ -41,9 +42,20 @@ int place_of(const std::vector<int>& list, int joint) {
 
 }  // namespace
 
+bool forces_follow_from_base(const Problem& problem) {
+  if (!problem.contact || problem.robot.base_axes.size() != 6) return false;
+  const Contact& contact = *problem.contact;
+  const Eigen::MatrixXd& C = contact.C;
+  return C.cols() == 3 && C.bottomRows(3).isZero(0) &&
+         std::abs(C.topRows<3>().determinant()) > 1e-9 &&
+         (contact.w_min.array() == -kInfinity).all() && (contact.w_max.array() == kInfinity).all();
+}
+
 PostureCoordinates::PostureCoordinates(const Problem& problem)
     : of_joint(problem.robot.joints.size(), -1), chain(joints_between(problem)) {
-  throw_unless_supported(!problem.motion && problem.contact_columns() == 0, problem);
+  throw_unless_supported(
+      !problem.motion && (problem.contact_columns() == 0 || forces_follow_from_base(problem)),
+      problem);
   const Robot& robot = problem.robot;
   const int own = problem.redundancy(), given = static_cast<int>(problem.redundant.size());
   const auto add_joint = [&](int joint, int coordinate) {

@@ -6,6 +6,10 @@
 
 namespace maxwrench {
 
+/// Whether a second contact has all three forces, without limits, and no torques, on a base that
+/// moves along all six axes. The balance of the base's forces then determines them.
+bool forces_follow_from_base(const Problem& problem);
+
 /// All coordinates x of a posture:
 ///
 ///     x = [theta_r; dependent joints; joints of a second arm; yaw of the base].
@@ -20,8 +24,9 @@ struct PostureCoordinates {
     double lower = 0, upper = 0;
   };
 
-  /// Throws std::invalid_argument, in one line, for tasks in time, for a second contact that exerts
-  /// forces, and for joints of theta_r that do not move the end effector.
+  /// Throws std::invalid_argument, in one line, for tasks in time, for a second contact with other
+  /// forces than those that follow from the base, and for joints of theta_r that do not move the
+  /// end effector.
   explicit PostureCoordinates(const Problem& problem);
 
   std::vector<Variable> variables;

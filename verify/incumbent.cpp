@@ -7,6 +7,7 @@
 #include "verify/gain.h"
 #include "verify/list_value.h"
 #include "verify/model.h"
+#include "verify/value_proof.h"
 #include "verify/weighted.h"
 
 namespace maxwrench {
@@ -113,6 +114,30 @@ std::string reject_ellipsoid(const Problem& problem, const FormModel& model,
              : "its efforts are outside the ellipsoid";
 }
 
+/// The rows that are left where the force of a second contact follows from the base's linear axes:
+/// tau + t a + A B_f u at x, with zeros in place of those axes, whose balance gives the force.
+std::vector<Narrow> braced_load(const Problem& problem, const FormModel& model,
+                                const ProofCertificate& proof) {
+  const BracedRows rows = braced_rows(model, problem.c);
+  const Zonotope& set = problem.robot.actuation;
+  const auto at = [&](const Form& form) {
+    return BoxForms::at_point(model.shape(), FormRow(form, model.far()), proof.x);
+  };
+  std::vector<Narrow> force(3);
+  const auto thrusters = static_cast<Eigen::Index>(problem.robot.thrusters.size());
+  for (std::size_t k = 0; k < 3; ++k) {
+    for (Eigen::Index i = 0; i < thrusters; ++i) {
+      force[k] += Narrow(set.B(static_cast<Eigen::Index>(k), i)) * Narrow(proof.u[i]);
+    }
+  }
+  std::vector<Narrow> sum;
+  for (std::size_t i = 0; i < rows.tau.size(); ++i) {
+    sum.push_back(at(rows.tau[i]) + Narrow(proof.value) * at(rows.a[i]));
+    for (std::size_t k = 0; k < 3; ++k) sum[i] += at(rows.levers[i][k]) * force[k];
+  }
+  return sum;
+}
+
 std::string reject_value(const Problem& problem, const FormModel& model,
                          const ProofCertificate& proof, double tolerance) {
   const Zonotope& set = problem.robot.actuation;
@@ -122,7 +147,11 @@ std::string reject_value(const Problem& problem, const FormModel& model,
   if (!((h - W * (W.transpose() * h)).norm() <= tolerance)) return "its wrench is not allowed";
   if (!(std::abs(problem.c.dot(h) - proof.value) <= tolerance))
     return "its wrench has another value along c";
-  const std::vector<Narrow> tau = load(model, proof.x, h);
+  if (problem.contact_columns() > 0 && proof.u.size() != set.actuators()) {
+    return "the number of efforts differs from that of the actuators";
+  }
+  const std::vector<Narrow> tau =
+      problem.contact_columns() > 0 ? braced_load(problem, model, proof) : load(model, proof.x, h);
   if (polytope) return reject_balance(set.B, set, proof.u, tau, tolerance);
   if (proof.measure == "ellipsoid") return reject_ellipsoid(problem, model, proof, tau);
   const std::vector<Wide> u = efforts(enclose_pseudoinverse(set.B), tau);

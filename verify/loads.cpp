@@ -126,6 +126,34 @@ std::vector<Form> FormModel::exerted(const Vector6d& h) const {
   return rows;
 }
 
+std::vector<FormVector> FormModel::levers() const {
+  const Robot& robot = problem_.robot;
+  const auto at = static_cast<std::size_t>(problem_.contact->end_effector);
+  const EndEffector& touching = robot.end_effectors[at];
+  const FormVector nothing = constant(Eigen::Vector3d::Zero());
+  std::vector<FormVector> rows(static_cast<std::size_t>(robot.velocities()), nothing);
+  const std::size_t base = robot.base_axes.size();
+  for (std::size_t k = 0; k < 3; ++k) {
+    const FormVector force = constant(Eigen::Vector3d::Unit(static_cast<Eigen::Index>(k)));
+    const auto moment_at = [&](int link, const FormVector& along) {
+      return cross(seen(touching.link, constant(touching.placement.p), link), along);
+    };
+    const FormVector moment = moment_at(0, force);
+    for (std::size_t i = 0; i < base; ++i) {
+      const auto axis = static_cast<std::size_t>(robot.base_axes[i]);
+      rows[i][k] = axis < 3 ? force[axis] : moment[axis - 3];
+    }
+    for (int link = touching.link; link > 0; link = parent(static_cast<std::size_t>(link))) {
+      const auto joint = static_cast<std::size_t>(link - 1);
+      const FormVector along = seen(0, force, link, false);
+      const bool turns = robot.joints[joint].type == JointType::kRevolute;
+      rows[base + joint][k] =
+          dot(constant(robot.joints[joint].axis), turns ? moment_at(link, along) : along);
+    }
+  }
+  return rows;
+}
+
 /// Sets the base's rows, from the base's yaw and the position of the end effector in base axes.
 void FormModel::exert_on_base(const Vector6d& h, std::vector<Form>& rows) const {
   const auto in_base = [&](const Eigen::Vector3d& x) {

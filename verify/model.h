@@ -35,6 +35,9 @@ class FormModel {
   /// J'h, n, for a wrench h at the end effector in world axes. If the task's wrenches turn with the
   /// end effector, h is given at `Problem::pose` and turned with it.
   std::vector<Form> exerted(const Vector6d& h) const;
+  /// A, n rows: a force F of a second contact, in base axes, adds A F to tau. Depends on the joints
+  /// of the second arm only.
+  std::vector<FormVector> levers() const;
   /// The force of a wrench c, or its torque if not `force`, in base axes.
   FormVector along_at_base(const Vector6d& c, bool force) const;
   /// [linear; angular] velocity of the base when the end effector moves by c as one body with the

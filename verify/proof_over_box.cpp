@@ -62,6 +62,7 @@ double ProofOverBox::most(const Eigen::VectorXd& lower, const Eigen::VectorXd& u
   box_.over_box(tau_);
   box_.over_box(a_);
   off_postures_.add_to(tau_, nu(multiplier, parts));
+  if (!add_at_points(lower, upper, multiplier, tau_)) return high;
   double U = by_ends(support, low, high);
   if (U > low) U = std::min(U, by_ratio(support));
   return U < high ? U : high;

@@ -36,6 +36,12 @@ class ProofOverBox : public ValueProof {
   /// Adds the coefficients of g and h to zeros, and returns an upper bound of s.
   virtual double combine(const double* multiplier, std::size_t parts, std::vector<Narrow>& g,
                          std::vector<Narrow>& h) = 0;
+  /// Adds what is no form in all coordinates to g at the control points of the same box. False if
+  /// it cannot be enclosed.
+  virtual bool add_at_points(const Eigen::VectorXd& /*lower*/, const Eigen::VectorXd& /*upper*/,
+                             const double* /*multiplier*/, std::vector<Narrow>& /*g*/) {
+    return true;
+  }
   /// The entries of nu.
   virtual const double* nu(const double* multiplier, std::size_t parts) const = 0;
 

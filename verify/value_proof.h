@@ -2,8 +2,10 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "maxwrench/types.h"
+#include "verify/form.h"
 
 namespace maxwrench {
 
@@ -46,6 +48,27 @@ class ValueProof {
 /// not support.
 std::unique_ptr<ValueProof> make_pure_proof(const Problem& problem, const FormModel& model,
                                             const Equations& equations, const std::string& measure);
+
+/// For the L-infinity polytope and a second contact whose force F follows from the base. With the
+/// levers A and the thrusters' forces u on the base, F = B_f u - tau_f - t a_f, where f are the
+/// base's linear rows. The balance of the other rows is B u_joints = tau - A tau_f + t (a - A a_f)
+/// + K u, K = A B_f - B. So for any lambda, with the support s of the joints' efforts, and any nu
+///
+///     t <= s(lambda) + max over control points v, t in {low, high} and u within limits of
+///          t (1 - lambda'a_v) - lambda'tau_v - lambda'K_v u - nu'f_v,
+///
+/// where tau and a are those of the balance; and the bound with lambda'a_v > 0 as above. The
+/// entries of lambda of the linear rows do not matter. If c has no force, |t c| is at most the
+/// torque of the loads and thrusters in the base's angular rows.
+std::unique_ptr<ValueProof> make_braced_proof(const Problem& problem, const FormModel& model,
+                                              const Equations& equations);
+
+/// The rows tau and a of this balance, n; those of the base's linear axes are zero.
+struct BracedRows {
+  std::vector<Form> tau, a;
+  std::vector<FormVector> levers;
+};
+BracedRows braced_rows(const FormModel& model, const Vector6d& c);
 
 /// For any wrench and the L-infinity polytope. The forces on the base determine the value: with y
 /// and K of `FormModel` and the thrusters' forces u, beta = o_0 + y'B_b u, and joints exert tau_0 +

@@ -95,7 +95,8 @@ int certify_motion(const CertifyCommandOptions& options, const CLI::App& command
 /// The check of a certificate does not support all tasks. The list of good postures needs boxes of
 /// theta_r only.
 void throw_on_dependents(const CertifyCommandOptions& options, const Problem& problem) {
-  const std::string got = why_no_certificate(problem, options.read_options().wrench);
+  const Options of = options.read_options();
+  const std::string got = why_no_certificate(problem, of.wrench, of.measure);
   if (!options.certificate.empty() && !got.empty()) {
     throw std::invalid_argument("--certificate: got " + got + ", expected one without");
   }

@@ -8,6 +8,7 @@
 #include "lib/math/random.h"
 #include "lib/scenario/current_load.h"
 #include "maxwrench/problem.h"
+#include "solvers/certify/bound/loop_posture.h"
 #include "solvers/certify/proof_recorder.h"
 #include "solvers/solve/method.h"
 #include "verify/certificate.h"
@@ -147,8 +148,12 @@ Proof certify(const Problem& task, const Options& options, const ProofOptions& h
   return proof;
 }
 
-std::string why_no_certificate(const Problem& task, Wrench wrench) {
-  if (task.contact_columns() > 0) return "a task with forces of a second contact";
+std::string why_no_certificate(const Problem& task, Wrench wrench, const std::string& measure) {
+  if (task.contact_columns() > 0) {
+    const bool determined = base_determines_forces(task) && measure == "linf_polytope";
+    if (!determined) return "a task with forces of a second contact";
+    if (!task.scenarios.empty()) return "a list with forces of a second contact";
+  }
   if (wrench == Wrench::kAny && !task.scenarios.empty()) return "any wrenches of a list";
   const auto free_axes = static_cast<Eigen::Index>(task.robot.base_axes.size());
   if (wrench == Wrench::kAny && task.W_any.cols() != free_axes) {
@@ -159,7 +164,8 @@ std::string why_no_certificate(const Problem& task, Wrench wrench) {
 
 Proof certify(const Problem& task, const Options& options, const ProofOptions& how) {
   if (!how.keep_certificate) return certify(task, options, how, nullptr);
-  if (const std::string got = why_no_certificate(task, options.wrench); !got.empty()) {
+  if (const std::string got = why_no_certificate(task, options.wrench, options.measure);
+      !got.empty()) {
     throw std::invalid_argument("keep_certificate: got " + got + ", expected one without");
   }
   ProofRecorder recorder;

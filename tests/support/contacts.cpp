@@ -27,6 +27,16 @@ Eigen::VectorXd near_default(const Problem& problem, Random& random) {
   return theta_r;
 }
 
+Problem two_arms_about_the_best(double width) {
+  Problem task = load_problem("dual_arm/two_arms");
+  Eigen::VectorXd best(5);
+  best << 6.02, 2.25346, 2.15090, 3.04743, 0.02973;
+  task.theta_r_min = (best.array() - width).max(task.theta_r_min.array());
+  task.theta_r_max = (best.array() + width).min(task.theta_r_max.array());
+  task.theta_r_default = best.cwiseMax(task.theta_r_min).cwiseMin(task.theta_r_max);
+  return task;
+}
+
 Problem with_pipe(Problem problem) {
   Contact& contact = *problem.contact;
   const int others = problem.redundancy() - contact.coordinates();

@@ -20,7 +20,8 @@ inline const std::vector<const char*> kLoopProblems = {
     "mobile/push",        "fixed/push",      "mobile/push_any_height",
     "dual_arm/bar_alone", "random, fixed",   "random, x",
     "random, yaw",        "random, x y yaw", "random, x y z yaw",
-    "random, free tool",  "planar/two_arms", "dual_arm/bar_wall", "dual_arm/two_arms"};
+    "random, free tool",  "planar/two_arms", "dual_arm/bar_wall",
+    "dual_arm/two_arms"};
 
 /// The number of the last ones, whose second contact bears forces.
 constexpr std::ptrdiff_t kLoopProblemsWithForces = 3;

@@ -7,6 +7,7 @@
 #include "solvers/certify/certify.h"
 #include "solvers/certify/proof_recorder.h"
 #include "solvers/solve/method.h"
+#include "tests/support/contacts.h"
 #include "tests/support/support.h"
 #include "tests/support/written_proof.h"
 
@@ -164,7 +165,7 @@ class Tampering {
   Random random_;
 };
 
-/// 1,000 in all, on four problems. None of them goes through a file, so no checksum helps.
+/// Some 1,000 in all, on five problems. None of them goes through a file, so no checksum helps.
 TEST(Verify, RejectsFalseProofs) {
   const auto reject_all = [](const WrittenProof& at, int count) {
     ASSERT_EQ(at.rejection(at.proof), "");
@@ -178,6 +179,9 @@ TEST(Verify, RejectsFalseProofs) {
   reject_all({"planar/force", "ellipsoid", Wrench::kPure, 1e-2}, samples(200));
   reject_all({"mobile/push", "linf_polytope", Wrench::kPure, 1e-2}, samples(80));
   reject_all({"uvms/lift", "linf_polytope", Wrench::kPure, 1e-1}, samples(40));
+  reject_all(
+      {two_arms_about_the_best(0.02), "dual_arm/two_arms", "linf_polytope", Wrench::kPure, 1e-2},
+      samples(40));
 }
 
 /// What compares with nothing, or overflows, proves nothing.

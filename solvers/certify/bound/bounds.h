@@ -106,6 +106,11 @@ CeilingSizes ceiling_sizes(const Problem& problem);
 double pure_ceiling(const Problem& problem, const Vector6d& c, const Zonotope& set,
                     const CeilingSizes& sizes);
 
+/// The same where the base determines the forces of a second contact: the base's angular rows give
+/// t |c| <= |tau| + |K u|, with all magnitudes. Infinity if c has a force, which the contact can
+/// bear.
+double braced_ceiling(const Problem& problem);
+
 /// Returns -infinity for boxes throughout which two bodies collide, else `high`. For each pair of
 /// bodies, a point of one body's core moves along a multi-affine path in the axes of the other's
 /// link. The other's core, with its reach, is convex: if it contains all control points of the

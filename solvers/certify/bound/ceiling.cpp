@@ -4,16 +4,37 @@
 
 #include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/bound/loop_model.h"
+#include "solvers/certify/bound/thrust_points.h"
 
 namespace maxwrench {
 
-CeilingSizes ceiling_sizes(const Problem& problem) {
+namespace {
+
+/// All postures for which a ceiling holds.
+Problem with_margin(const Problem& problem) {
   Problem wide = problem;
-  wide.robot.base_axes = {0, 1, 2, 3, 4, 5};
   wide.theta_r_min.array() -= kCeilingMargin;
   wide.theta_r_max.array() += kCeilingMargin;
+  return wide;
+}
+
+}  // namespace
+
+CeilingSizes ceiling_sizes(const Problem& problem) {
+  Problem wide = with_margin(problem);
+  wide.robot.base_axes = {0, 1, 2, 3, 4, 5};
   const LoopModel model(wide);
   return {model.tau.head<6>(), model.a.head<6>()};
+}
+
+double braced_ceiling(const Problem& problem) {
+  if (!problem.c.head<3>().isZero(0)) return kInfinity;
+  const Problem wide = with_margin(problem);
+  const LoopModel model(wide, ContactForces::kOfBase);
+  const ThrustPoints thrust(model, problem.robot.actuation,
+                            static_cast<Eigen::Index>(problem.robot.thrusters.size()));
+  const Eigen::Vector3d torque = (model.tau + thrust.sizes()).segment<3>(3);
+  return torque.norm() / problem.c.norm() * (1 + kCeilingRounding);
 }
 
 double pure_ceiling(const Problem& problem, const Vector6d& c, const Zonotope& set,

@@ -82,7 +82,10 @@ double least_force(const Problem& problem) {
 }  // namespace
 
 bool base_determines_forces(const Problem& problem) {
-  if (!problem.contact || problem.robot.base_axes.size() != 6) return false;
+  if (!problem.contact || problem.robot.base_axes.size() != 6 ||
+      problem.robot.thrusters.size() > kMostPatternThrusters) {
+    return false;
+  }
   const Contact& contact = *problem.contact;
   return contact.C.cols() == 3 && contact.C.bottomRows<3>().isZero(0) &&
          singular_values(contact.C.topRows<3>()).minCoeff() > 1e-6 &&

@@ -12,8 +12,11 @@ enum class ContactForces {
   kOfBase   ///< as what the thrusters and the loads leave on the base: `levers`
 };
 
+/// With more thrusters, patterns of their limits and control points would not be one `int`.
+inline constexpr std::size_t kMostPatternThrusters = 12;
+
 /// Whether a second contact has all three forces, without limits, and no torques, on a base that
-/// moves along all six axes. The base's linear axes then determine the forces.
+/// moves along all six axes, by few thrusters. The base's linear axes then determine the forces.
 bool base_determines_forces(const Problem& problem);
 
 /// All coordinates x of a posture:

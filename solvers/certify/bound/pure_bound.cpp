@@ -285,8 +285,7 @@ std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string
   }
   auto set = std::make_shared<Zonotope>(problem.robot.actuation);
   const auto thrusters = static_cast<Eigen::Index>(problem.robot.thrusters.size());
-  const bool of_base = kind == PureMeasure::kPolytope &&
-                       thrusters <= ThrustPoints::kMostThrusters && base_determines_forces(problem);
+  const bool of_base = kind == PureMeasure::kPolytope && base_determines_forces(problem);
   auto model = std::make_shared<LoopModel>(
       problem, of_base ? ContactForces::kOfBase : ContactForces::kShares);
   std::optional<ThrustPoints> thrust;
@@ -295,7 +294,9 @@ std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string
     set->B.leftCols(thrusters).setZero();
   }
   double ceiling = kInfinity;
-  if (model->coordinates.base_is_dependent && !LoopCoordinates(problem).forces_grow()) {
+  if (of_base) {
+    ceiling = braced_ceiling(problem);
+  } else if (model->coordinates.base_is_dependent && !model->coordinates.forces_grow()) {
     ceiling = pure_ceiling(problem, problem.c, problem.robot.actuation, ceiling_sizes(problem));
   }
   return std::make_unique<PureBound>(std::move(model), ceiling, std::move(set), K, kind,

@@ -13,9 +13,6 @@ namespace maxwrench {
 /// point u can be another one: that of the largest -lambda'K u within the limits.
 class ThrustPoints {
  public:
-  /// Patterns of limits of u are numbers, one bit for each thruster.
-  static constexpr int kMostThrusters = 12;
-
   /// Keeps a reference to the model. B is that of all actuators, thrusters first.
   ThrustPoints(const LoopModel& model, const Zonotope& set, Eigen::Index thrusters);
 

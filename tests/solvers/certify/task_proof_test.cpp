@@ -9,6 +9,7 @@
 #include "maxwrench/load.h"
 #include "maxwrench/strategies.h"
 #include "tests/support/coded_tasks.h"
+#include "tests/support/contacts.h"
 #include "tests/support/refusals.h"
 #include "tests/support/snake.h"
 #include "tests/support/support.h"
@@ -226,22 +227,28 @@ TEST(CertifyTask, BoundsAValueOfZero) {
   EXPECT_EQ(proof.gap(), proof.bound > 0 ? kInfinity : 0);
 }
 
-/// The best value that `solve` finds from each of 20 seeds, 87.857 N m, about its posture. The base
-/// determines all three forces of the second contact.
+/// The base determines all three forces of the second contact.
 TEST(CertifyTask, ProvesTwoArmsThatBothExertForces) {
-  Problem task = load_problem("dual_arm/two_arms");
-  Eigen::VectorXd best(5);
-  best << 6.02, 2.25346, 2.15090, 3.04743, 0.02973;
-  const double width = kSanitized ? 0.02 : 0.1;
-  task.theta_r_min = (best.array() - width).max(task.theta_r_min.array());
-  task.theta_r_max = (best.array() + width).min(task.theta_r_max.array());
-  task.theta_r_default = best.cwiseMax(task.theta_r_min).cwiseMin(task.theta_r_max);
+  const Problem task = two_arms_about_the_best(kSanitized ? 0.02 : 0.1);
   ProofOptions how = to(5e-3);
   how.seconds = 300;
   const Proof proof = certify(task, Options(), how);
   EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
-  EXPECT_GE(proof.bound, 87.8569);
-  EXPECT_LE(proof.bound, 87.8570 * 1.005);
+  EXPECT_GE(proof.bound, kBestOfTwoArms);
+  EXPECT_LE(proof.bound, (kBestOfTwoArms + 1e-4) * 1.005);
+}
+
+/// Other measures and lists have bounds with the forces as coordinates, and no certificates.
+TEST(CertifyTask, SaysWhichContactsHaveNoCertificate) {
+  Problem task = load_problem("dual_arm/two_arms");
+  EXPECT_EQ(why_no_certificate(task), "");
+  EXPECT_EQ(why_no_certificate(task, Wrench::kPure, "l2_polytope"),
+            "a task with forces of a second contact");
+  task.contact->w_max[1] = 100;
+  EXPECT_EQ(why_no_certificate(task), "a task with forces of a second contact");
+  EXPECT_EQ(why_no_certificate(load_problem("dual_arm/bar_wall")),
+            "a task with forces of a second contact");
+  EXPECT_EQ(why_no_certificate(load_problem("dual_arm/bar_alone")), "");
 }
 
 TEST(CertifyTask, RejectsBadOptions) {

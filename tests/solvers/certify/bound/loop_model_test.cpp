@@ -94,8 +94,7 @@ TEST(LoopModel, LeavesOutTheForcesThatTheBaseDetermines) {
         (loop.loads().head(model.n) + t * loop.loads().tail(model.n)).cast<double>();
     const Eigen::MatrixXd A = loop.levers().cast<double>();
     const Eigen::VectorXd expected = loads + A * (F - loads.head<3>());
-    const Eigen::VectorXd found =
-        tau + t * a + model.levers->evaluate(x).reshaped(model.n, 3) * F;
+    const Eigen::VectorXd found = tau + t * a + model.levers->evaluate(x).reshaped(model.n, 3) * F;
     EXPECT_LT((expected.head<3>() - F).norm(), 1e-12);
     EXPECT_LT((found - expected).tail(others).cwiseAbs().maxCoeff(),
               1e-9 * (1 + expected.cwiseAbs().maxCoeff()));
