@@ -212,6 +212,36 @@ TEST(AloneListBound, ProvesTheBestPlaceOfALossBesideASecondContact) {
   EXPECT_EQ(why_no_certificate(task, Wrench::kPure), "a task with forces of a second contact");
 }
 
+/// Without shares, a box has the coordinates of the posture only, for all scenarios.
+TEST(AloneListBound, NeedsNoSharesWhereTheBaseDeterminesTheForces) {
+  Problem task =
+      second_contact_task("two_arms.toml", "set = [[0, 0, 0, 0, 0, 1], [0, 0, 0, 0, 0, -1]]",
+                          "[loss]\ncases = [[\"front_left_vertical\"]]\n");
+  task.robot.collision = nullptr;
+  const auto bound = make_capability_bound(task, "linf_polytope", Wrench::kPure);
+  Eigen::VectorXd least = task.theta_r_min, most = task.theta_r_max;
+  bound->extend(least, most);
+  constexpr Eigen::Index kArm = 3;
+  ASSERT_EQ(least.size(), task.redundancy() + kArm);
+  EXPECT_EQ(why_no_certificate(task), "a list with forces of a second contact");
+  Random random(8);
+  int valued = 0;
+  for (int i = 0; i < samples(40); ++i) {
+    const Answer answer = evaluate(task, near_default(task, random));
+    if (answer.status != Status::kOptimal) continue;
+    ++valued;
+    Eigen::VectorXd x(least.size());
+    x << answer.posture.theta_r, answer.posture.q(task.contact->follow);
+    Eigen::VectorXd lower = x.array() - 1e-6, upper = x.array() + 1e-6;
+    ASSERT_TRUE(bound->shrink(lower, upper, nullptr));
+    BoxProof proof;
+    bound->evaluate(lower, upper, 0, 1e3, proof);
+    EXPECT_GE(proof.high, answer.beta() * (1 - 1e-9));
+    EXPECT_LE(proof.high, answer.beta() * (1 + 1e-3));
+  }
+  EXPECT_GT(valued, 0);
+}
+
 /// A list of one scenario has the bound of an ordinary task with its limits.
 TEST(AloneListBound, OfOneScenarioIsThatOfAnOrdinaryTask) {
   const Problem list = second_contact_task("bar_wall.toml", kTurn, "[uncertainty]\nthrust = 0.1\n");
