@@ -8,6 +8,7 @@
 #include <stdexcept>
 
 #include "lib/math/rotated.h"
+#include "lib/scenario/current_load.h"
 
 namespace maxwrench {
 namespace {
@@ -61,6 +62,13 @@ Problem task_of_margins(const Problem& task, const MarginSet& set) {
     reject("robot", task.robot.name, "a robot whose actuators have few facets");
   }
   const ScenarioList& own = task.scenarios;
+  const auto is_known = [](const LoadGroup& cases) {
+    return cases.size() == 1 && cases.front().name.empty() && has_current(cases);
+  };
+  if (std::any_of(own.loads.begin(), own.loads.end(), is_known)) {
+    reject("environment.current", "a known current in " + task.name + ", a static task",
+           "still water, or a task in time, whose motion it belongs to");
+  }
   if (!own.loads.empty()) {
     reject("uncertainty", "uncertain loads or a current, which are loads at rest",
            "a task without them: --nominal leaves out uncertain ones");

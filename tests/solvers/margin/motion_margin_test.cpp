@@ -284,6 +284,9 @@ TEST(MotionMargin, RejectsWhatItDoesNotSupport) {
   expect_rejected("uncertainty", [&] {
     motion_margin(scenario_task(kTurn, "[uncertainty]\ntrim = 0.2\n"), {instant});
   });
+  expect_rejected("environment.current", [&] {
+    motion_margin(scenario_task(kTurn, "[environment]\ncurrent = [0.3, 0, 0]\n"), {instant});
+  });
   MarginSet skew;
   skew.E.col(0) *= 2;
   expect_rejected("margin", [&] { motion_margin(problem, {instant}, skew); });
