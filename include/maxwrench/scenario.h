@@ -128,8 +128,8 @@ struct ScenarioList {
 
 /// Returns what tells a scenario from the others of its list.
 ///
-/// An example is "wrench 2; front_left dead; base com.x +0.005 m". It is "nominal" if there is
-/// nothing to tell.
+/// An example is "wrench 2; front_left dead; base com.x +0.005 m". If there is nothing to tell, it
+/// is "nominal", or "weaker actuators" where the limits are theirs.
 std::string describe(const ScenarioList& list, const ScenarioChoice& choice);
 
 /// A scenario in the keys of its task.

@@ -30,7 +30,9 @@ std::string describe(const ScenarioList& list, const ScenarioChoice& choice) {
   for (std::size_t group = 0; group < choice.cases.size(); ++group) {
     add(list.loads[group][static_cast<std::size_t>(choice.cases[group])].name);
   }
-  return text.empty() ? "nominal" : text;
+  if (!text.empty()) return text;
+  const ScenarioLimits& limits = list.limits[static_cast<std::size_t>(choice.limits)];
+  return limits.lost.weaker.empty() ? "nominal" : "weaker actuators";
 }
 
 ScenarioData scenario_data(const Problem& problem, const ScenarioChoice& choice) {
