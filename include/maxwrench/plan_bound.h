@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <string>
 
 #include "maxwrench/certify.h"
 #include "maxwrench/solve.h"
@@ -34,6 +35,10 @@ struct PlanBound : Verdict {
   double gap() const;
 };
 
+/// Why a task, or the measure or the wrench of the options, has no bound on its trajectories, in
+/// one line; empty if it has one.
+std::string why_no_trajectory_bound(const Problem& task, const Options& options = {});
+
 /// Searches for the best trajectory of a task, and proves a bound that none exceeds.
 ///
 /// The bound counts all tables of knots that the task accepts, unless a knot collides. At one
@@ -52,8 +57,8 @@ struct PlanBound : Verdict {
 /// @param options  as for `solve`; the measure is linf_polytope and the wrench pure
 /// @param how      gap and time limit; no certificate
 /// @param knots    a trajectory (k×r) in place of a search; empty: none
-/// @throws std::invalid_argument, with one line, if the task or an option is not supported, or as
-///         `solve` and `evaluate`.
+/// @throws std::invalid_argument, with one line, if there is no such bound (see
+///         `why_no_trajectory_bound`) or an option is out of range, or as `solve` and `evaluate`.
 PlanBound bound_trajectories(const Problem& task, const Options& options = {},
                              const ProofOptions& how = {}, const Eigen::MatrixXd& knots = {});
 

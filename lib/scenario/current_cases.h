@@ -22,63 +22,77 @@ class CurrentCases {
   CurrentCases(const Robot& robot, const LoadGroup& cases);
   CurrentCases(const Robot&& robot, const LoadGroup& cases) = delete;
 
-  /// Bounds of |tau| [N, N m] over all cases and all postures within the limits of prismatic joints
-  /// (n), which may be infinite.
-  const Eigen::VectorXd& most() const { return most_; }
+  /// A bound of |n'tau| over all cases and all postures within the limits of prismatic joints. It
+  /// is not finite if nothing limits their arms.
+  double most(const Eigen::VectorXd& n) const;
 
-  /// Moves to a posture. This and the calls below allocate nothing after the first.
+  /// Moves to a posture, which must stay as it is until the next call. This and the calls below
+  /// allocate nothing after the first.
   void set(const Posture& posture);
   /// Chooses n and computes a, M and w.
   void aim(const Eigen::VectorXd& n);
   /// A bound of |n'tau| over all cases, from the largest speed.
-  double bound() const;
-  /// Returns the largest side n'tau of all cases, with the case that has it. The side is 1 or -1.
+  double bound() const { return bound_; }
+  /// Returns the largest side n'tau of all cases, with the first case that has it. The side is 1 or
+  /// -1. Directions are estimated in single precision first: only those that rounding may have kept
+  /// from being the worst are computed.
   double worst(double side, int& which);
 
  private:
-  /// An axis of a body that has quadratic drag along it.
-  struct DragAxis {
-    std::size_t link;
-    Eigen::Vector3d at, along;  ///< in link axes
-    double damping;
-    /// e, and the point of the body x e, in world axes.
-    Eigen::Vector3d e = Eigen::Vector3d::Zero(), moment = Eigen::Vector3d::Zero();
-  };
-  /// What the water does to the bodies of a link.
-  struct Water {
+  /// What the water does to a body.
+  struct Body {
     std::size_t link = 0;
-    Eigen::Matrix3d added_mass = Eigen::Matrix3d::Zero();  ///< A, in link axes
-    /// V to the wrench of linear drag, at the link's origin.
-    Eigen::Matrix<double, 6, 3> damping = Eigen::Matrix<double, 6, 3>::Zero();
-    bool has_damping = false;
-    Eigen::Matrix3d A = Eigen::Matrix3d::Zero();  ///< in world axes
+    Pose<double> frame;                 ///< link -> body
+    bool turned = false;                ///< whether its axes are not those of the link
+    Eigen::Vector3d linear, quadratic;  ///< drag along its axes
+    bool has_linear = false;
+    Eigen::Vector3d munk;  ///< added masses along its axes: zz - yy, xx - zz and yy - xx
+    Pose<double> at;       ///< its pose relative to the base
+    Eigen::Matrix3d E;     ///< its axes, in those of the world
+  };
+  /// Quadratic drag along an axis: w |e'V| e'V.
+  template <class T>
+  struct DragAxis {
+    T w = 0;
+    T e[3] = {0, 0, 0};
+    T most = 0;  ///< |w| |e|^2
   };
 
-  void add_link(std::size_t link);
   void pair_opposites(const LoadGroup& cases);
   void set_most();
   double farthest(std::size_t first, std::size_t link) const;
+  Screw<double> base_twist(const Eigen::VectorXd& n) const;
+  void move_links(const Eigen::VectorXd& n);
+  void add(const Body& body);
+  template <bool kHorizontal>
+  void estimate();
+  double larger(Eigen::Index i, double side, int& which) const;
 
   const Robot& robot_;
-  std::vector<Water> water_;
-  std::vector<DragAxis> axes_;
-  double speed_ = 0;      ///< the largest of the currents
-  Eigen::Vector3d used_;  ///< 1 for each axis of the world along which some current flows, else 0
-  Eigen::VectorXd most_;
-  /// Of each pair of opposite currents, then of each current alone: V, the products xx, yy, zz, xy,
-  /// xz and yz of its components, and the cases of V and -V (-1: none).
-  Eigen::ArrayX3d V_;
-  Eigen::MatrixXd products_;
+  std::vector<Body> bodies_;
+  double speed_ = 0;                         ///< the largest of the currents
+  bool horizontal_ = false;                  ///< whether no current has a part along z
+  double most_force_ = 0, most_moment_ = 0;  ///< on the base
+  Eigen::VectorXd most_of_joints_;
+  /// Of each pair of opposite currents, then of each current alone: V, and the cases of V and -V
+  /// (-1: none).
+  Eigen::MatrixX3d V_;
   std::vector<int> forward_, backward_;
-  Eigen::Index pairs_ = 0;
 
-  Eigen::Matrix3d R_;                          ///< of the base
-  std::vector<Pose<double>> frames_;           ///< of the links, in world axes about the base
-  std::vector<Screw<double>> joints_, links_;  ///< twist per unit rate of a joint; of links by n
+  const Posture* posture_ = nullptr;
+  std::vector<Screw<double>> links_;  ///< twists of the links by n
+  // a, M and w, in world axes. Where all currents are horizontal, parts along z are left out.
   Eigen::Vector3d a_;
-  Eigen::Matrix<double, 6, 1> m_;  ///< the factors of the products in V'M V
-  Eigen::VectorXd w_;
-  Eigen::ArrayXd odd_, even_, along_, total_;
+  Eigen::Matrix<double, 6, 1> m_;  ///< factors of xx, yy, zz, xy, xz and yz in V'M V
+  std::vector<DragAxis<double>> axes_;
+  double bound_ = 0;
+
+  // Estimates: V divided by the speed, and both parts of n'tau divided by the bound.
+  Eigen::ArrayX3f U_;      ///< with further rows of zeros
+  Eigen::ArrayXf mirror_;  ///< -1 of a pair, 1 of a current alone
+  std::vector<DragAxis<float>> estimated_axes_;
+  Eigen::ArrayXf odd_, even_, total_;
+  bool estimated_ = false;  ///< whether they are those of n
 };
 
 }  // namespace maxwrench

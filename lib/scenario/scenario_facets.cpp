@@ -24,8 +24,7 @@ ScenarioFacets::ScenarioFacets(const Problem& problem)
       margins_(problem),
       slope_(pairs_),
       widening_(pairs_),
-      row_(2 * pairs_),
-      part_(2 * pairs_),
+      ends_(2 * pairs_),
       tau_(set_.dimension()) {
   const ScenarioList& list = problem.scenarios;
   for (const ScenarioLimits& limits : list.limits) {
@@ -138,7 +137,7 @@ void ScenarioFacets::scan(ScenarioForces& at) {
         missed = true;
         return;
       }
-      if (margins_.exact()) scan_low(i, l);  // while its rows are at hand
+      if (margins_.exact()) scan_low(i, l);
     }
   }
   if (margins_.exact()) return;
@@ -147,9 +146,19 @@ void ScenarioFacets::scan(ScenarioForces& at) {
   }
 }
 
+/// Writes the ends of the rows whose slopes have a sign; of the others `none`.
+void ScenarioFacets::fill_ends(const Wrench& rows, const Eigen::ArrayXd& limits, double sign,
+                               double none) {
+  const Eigen::ArrayXd& margins = margins_.values();
+  for (Eigen::Index i = 0; i < ends_.size(); ++i) {
+    const double end = (limits[i] + margins[i]) * rows.inverse[i];
+    ends_[i] = sign * rows.inverse[i] > 0 ? end : none;  // by value: without a branch
+  }
+}
+
 Eigen::Index ScenarioFacets::row_of(double end) const {
   Eigen::Index row = 0;
-  while (part_[row] != end) ++row;
+  while (ends_[row] != end) ++row;
   return row;
 }
 
@@ -157,7 +166,7 @@ Eigen::Index ScenarioFacets::row_of(double end) const {
 bool ScenarioFacets::refine_end(const Wrench& rows, const Eigen::ArrayXd& limits,
                                 Eigen::Index row) {
   if (!margins_.refine(row)) return false;
-  part_[row] = (limits[row] + margins_.values()[row]) * rows.inverse[row];
+  ends_[row] = (limits[row] + margins_.values()[row]) * rows.inverse[row];
   return true;
 }
 
@@ -170,9 +179,8 @@ bool ScenarioFacets::scan_high(int wrench, int limits) {
     low_end_ = {wrench, limits, missed_row};
     return false;
   }
-  row_ = (bounds + margins_.values()) * rows.inverse;
-  part_ = (rows.inverse > 0).select(row_, kInfinity);
-  for (double end = part_.minCoeff(); end < high; end = part_.minCoeff()) {
+  fill_ends(rows, bounds, 1, kInfinity);
+  for (double end = ends_.minCoeff(); end < high; end = ends_.minCoeff()) {
     const Eigen::Index row = row_of(end);
     if (refine_end(rows, bounds, row)) continue;
     high = end;
@@ -186,11 +194,8 @@ bool ScenarioFacets::scan_high(int wrench, int limits) {
 void ScenarioFacets::scan_low(int wrench, int limits) {
   const Wrench& rows = wrenches_[static_cast<std::size_t>(wrench)];
   const Eigen::ArrayXd& bounds = limits_[static_cast<std::size_t>(limits)];
-  if (!margins_.exact()) {  // else it is that of `scan_high`
-    row_ = (bounds + margins_.values()) * rows.inverse;
-  }
-  part_ = (rows.inverse < 0).select(row_, -kInfinity);
-  for (double end = part_.maxCoeff(); end > low; end = part_.maxCoeff()) {
+  fill_ends(rows, bounds, -1, -kInfinity);
+  for (double end = ends_.maxCoeff(); end > low; end = ends_.maxCoeff()) {
     const Eigen::Index row = row_of(end);
     if (end > high && refine_end(rows, bounds, row)) continue;
     low = end;

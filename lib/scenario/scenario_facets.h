@@ -70,6 +70,7 @@ class ScenarioFacets {
   bool scan_high(int wrench, int limits);
   void scan_low(int wrench, int limits);
   bool refine_end(const Wrench& rows, const Eigen::ArrayXd& limits, Eigen::Index row);
+  void fill_ends(const Wrench& rows, const Eigen::ArrayXd& limits, double sign, double none);
   Eigen::Index row_of(double end) const;
   bool choose(ScenarioForces& at, const End& end, ScenarioChoice& choice);
 
@@ -79,7 +80,7 @@ class ScenarioFacets {
   std::vector<Eigen::ArrayXd> limits_;  ///< [b_max; -b_min] of each set of limits
   std::vector<Wrench> wrenches_;
   ScenarioMargins margins_;
-  Eigen::ArrayXd slope_, widening_, row_, part_;
+  Eigen::ArrayXd slope_, widening_, ends_;
   End high_end_, low_end_;
   double high_inverse_ = 0;
   Eigen::VectorXd tau_;

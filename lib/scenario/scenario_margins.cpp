@@ -59,11 +59,13 @@ auto ScenarioMargins::make_load(const Robot& robot, const LoadGroup& cases) -> L
       }
     }
     load.currents.emplace(robot, cases);
-    const Eigen::VectorXd& most = load.currents->most();
-    load.anywhere = most.allFinite();
-    load.bound.setZero(robot.actuation.facet_pairs());
+    const FacetNormals& N = robot.actuation.N;
+    load.bound.resize(N.cols());
+    for (Eigen::Index pair = 0; pair < N.cols(); ++pair) {
+      load.bound[pair] = load.currents->most(N.col(pair));
+    }
+    load.anywhere = load.bound.allFinite();
     load.worst.resize(static_cast<std::size_t>(2 * load.bound.size()));
-    if (load.anywhere) load.bound = (robot.actuation.N.cwiseAbs().transpose() * most).array();
     return load;
   }
   int links = 0;
@@ -82,10 +84,7 @@ auto ScenarioMargins::make_load(const Robot& robot, const LoadGroup& cases) -> L
 }
 
 void project(const FacetNormals& N, const Eigen::VectorXd& tau, Eigen::Ref<Eigen::ArrayXd> onto) {
-  onto.setZero();
-  for (Eigen::Index i = 0; i < tau.size(); ++i) {
-    if (tau[i] != 0) onto += tau[i] * N.row(i).array().transpose();
-  }
+  onto.matrix().noalias() = N.transpose().lazyProduct(tau);
 }
 
 /// Writes n_j'tau of a case, for all j, into `value_`.

@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <stdexcept>
 
 #include "maxwrench/load.h"
 #include "maxwrench/plan_bound.h"
@@ -49,18 +48,16 @@ std::optional<std::string> name_or_none(const std::string& scenario) {
   return scenario.empty() ? std::nullopt : std::optional(scenario);
 }
 
-/// What no trajectory exceeds, with valid options; NaN for tasks that have no such bound.
+/// What no trajectory exceeds; NaN for tasks that have no such bound.
 double bound_beside(const TrajectoryProof& proof, const Problem& problem, const Options& options,
                     const ProofOptions& how) {
   const Eigen::MatrixXd& knots = proof.answer.trajectory.knots;
-  if (knots.size() == 0) return std::numeric_limits<double>::quiet_NaN();
-  Options own = options;
-  own.search = "";  // the trajectory is given
-  try {
-    return bound_trajectories(problem, own, how, knots).bound;
-  } catch (const std::invalid_argument&) {
+  if (knots.size() == 0 || !why_no_trajectory_bound(problem, options).empty()) {
     return std::numeric_limits<double>::quiet_NaN();
   }
+  Options own = options;
+  own.search = "";  // the trajectory is given
+  return bound_trajectories(problem, own, how, knots).bound;
 }
 
 void save_trajectory_proof(const PyTrajectoryProof& self, const py::object& path) {

@@ -270,3 +270,11 @@ def test_a_proof_in_time_names_the_scenario_that_decides(tmp_path):
     push = mw.load("planar/trajectory")
     alone = mw.certify(push, push.theta_r_default)
     assert alone.decides is None and alone.scenarios == 0
+
+
+def test_a_list_in_time_has_no_bound_but_valid_options(rejects):
+    task = mw.load(TASKS / "turn_along_with_a_dead_thruster.toml")
+    proof = mw.certify(task, budget=20)
+    assert proof.status == "proven" and np.isnan(proof.bound) and np.isnan(proof.gap)
+    for key, value in {"gap": 0, "seconds": -1, "threads": -1, "search": "none"}.items():
+        assert key in str(rejects(mw.certify, task, budget=20, **{key: value}))

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -25,37 +26,6 @@ namespace {
 constexpr long kFirstBoxes = 400;
 /// The branch and bound of an instant ends when it is this near to the best value found there.
 constexpr double kInstantGap = 1e-3;
-
-[[noreturn]] void throw_unbounded(const Problem& problem, const char* got, const char* expected) {
-  throw std::invalid_argument(problem.name + ": got " + got + ", expected " + expected +
-                              " for a bound on trajectories");
-}
-
-void require_boundable(const Problem& problem, const Options& options) {
-  if (!problem.motion) throw_unbounded(problem, "a static task", "a trajectory or an impulse");
-  const MotionTask& task = *problem.motion;
-  const bool spline = task.scheme == Scheme::kSpline;
-  const std::vector<std::pair<bool, std::pair<const char*, const char*>>> cases = {
-      {problem.contact.has_value(), {"a second contact", "one contact"}},
-      {!problem.dependent.empty(), {"dependent joints", "a base whose pose has a closed form"}},
-      {!problem.scenarios.empty(), {"a list of scenarios", "one wrench of the nominal robot"}},
-      {task.transfer, {"a transfer", "a trajectory or an impulse"}},
-      {task.has_factor(), {"a payload or a table of wrenches", "one wrench"}},
-      {task.k < 2, {"k = 1", "k >= 2"}},
-      {task.impulse && !spline, {"an impulse with another scheme", "scheme spline"}},
-      {!gears_at(problem.robot, problem.end_effector).empty(), {"a gear in the chain", "none"}},
-      {!problem.robot.no_dynamics.empty(), {"a robot without dynamics", "complete inertias"}}};
-  for (const auto& [is, texts] : cases) {
-    if (is) throw_unbounded(problem, texts.first, texts.second);
-  }
-  if (options.measure != "linf_polytope") {
-    throw std::invalid_argument("measure: got " + options.measure +
-                                ", expected linf_polytope for a bound on trajectories");
-  }
-  if (options.wrench != Wrench::kPure) {
-    throw std::invalid_argument("wrench: got any, expected pure for a bound on trajectories");
-  }
-}
 
 PlanInstant instant_of(const Problem& problem, const SchemeMaps& maps, int instant) {
   const auto at = static_cast<std::size_t>(instant);
@@ -233,6 +203,33 @@ class PlanBounder {
 
 }  // namespace
 
+std::string why_no_trajectory_bound(const Problem& task, const Options& options) {
+  const auto unlike = [](const std::string& what, const std::string& got, const char* expected) {
+    return what + ": got " + got + ", expected " + expected + " for a bound on trajectories";
+  };
+  if (!task.motion) return unlike(task.name, "a static task", "a trajectory or an impulse");
+  const MotionTask& motion = *task.motion;
+  const bool spline = motion.scheme == Scheme::kSpline;
+  const std::vector<std::pair<bool, std::pair<const char*, const char*>>> cases = {
+      {task.contact.has_value(), {"a second contact", "one contact"}},
+      {!task.dependent.empty(), {"dependent joints", "a base whose pose has a closed form"}},
+      {!task.scenarios.empty(), {"a list of scenarios", "one wrench of the nominal robot"}},
+      {motion.transfer, {"a transfer", "a trajectory or an impulse"}},
+      {motion.has_factor(), {"a payload or a table of wrenches", "one wrench"}},
+      {motion.k < 2, {"k = 1", "k >= 2"}},
+      {motion.impulse && !spline, {"an impulse with another scheme", "scheme spline"}},
+      {!gears_at(task.robot, task.end_effector).empty(), {"a gear in the chain", "none"}},
+      {!task.robot.no_dynamics.empty(), {"a robot without dynamics", "complete inertias"}}};
+  for (const auto& [is, texts] : cases) {
+    if (is) return unlike(task.name, texts.first, texts.second);
+  }
+  if (options.measure != "linf_polytope") {
+    return unlike("measure", options.measure, "linf_polytope");
+  }
+  if (options.wrench != Wrench::kPure) return unlike("wrench", "any", "pure");
+  return "";
+}
+
 double PlanBound::gap() const {
   if (!answer.has_value()) return kInfinity;
   return bound == answer.beta() ? 0 : (bound - answer.beta()) / std::abs(answer.beta());
@@ -242,7 +239,9 @@ PlanBound bound_trajectories(const Problem& task, const Options& options, const 
                              const Eigen::MatrixXd& knots) {
   Problem own = task;
   if (!options.check_collision) own.robot.collision = nullptr;
-  require_boundable(own, options);
+  if (const std::string why = why_no_trajectory_bound(own, options); !why.empty()) {
+    throw std::invalid_argument(why);
+  }
   if (how.keep_certificate) {
     throw std::invalid_argument("keep_certificate: got a bound on trajectories, expected false");
   }

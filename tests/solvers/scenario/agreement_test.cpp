@@ -1,15 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <new>
 
-#include "maxwrench/measure.h"
-#include "maxwrench/posture.h"
 #include "maxwrench/solve.h"
-#include "maxwrench/strategies.h"
-#include "maxwrench/wrench_program.h"
-#include "solvers/solve/method.h"
 #include "tests/solvers/scenario/gradients.h"
+#include "tests/support/no_allocations.h"
 #include "tests/support/scenario_task.h"
 
 namespace maxwrench {
@@ -89,25 +84,10 @@ TEST_P(ScenarioAgreement, OfGradientsAndDifferences) {
   expect_gradients(task_, options, random);
 }
 
-/// The loop of a search allocates nothing after the first call, by facets.
 TEST_P(ScenarioAgreement, LoopAllocatesNothing) {
-  PostureEvaluator model(task_, false);
-  WrenchProgram program = make_wrench_program(task_, Wrench::kPure);
-  const auto measure =
-      make_scenario_polytope(task_, Wrench::kPure, find_wrench_solver("facets").make(), true);
-  Capability capability;
-  Eigen::VectorXd gradient;
   std::vector<Eigen::VectorXd> points(20, task_.theta_r_default);
   for (std::size_t i = 0; i < points.size(); ++i) points[i][1] += 0.01 * static_cast<double>(i);
-  const auto run = [&](const Eigen::VectorXd& theta_r) {
-    evaluate_best(model, theta_r, *measure, false, program, capability);
-    EXPECT_EQ(capability.status, Status::kOptimal);
-    model.pull_back(theta_r, capability, gradient);
-  };
-  for (const Eigen::VectorXd& point : points) run(point);
-  const long before = allocation_count();
-  for (const Eigen::VectorXd& point : points) run(point);
-  EXPECT_EQ(allocation_count(), before);
+  expect_no_allocations(task_, "facets", points);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, ScenarioAgreement, testing::ValuesIn(kLists),

@@ -2,43 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "maxwrench/measure.h"
-#include "maxwrench/posture.h"
 #include "maxwrench/sensitivity.h"
 #include "maxwrench/solve.h"
-#include "maxwrench/strategies.h"
-#include "maxwrench/wrench_program.h"
-#include "solvers/solve/method.h"
 #include "tests/solvers/scenario/gradients.h"
-#include "tests/support/changed_limits.h"
+#include "tests/solvers/scenario/ordinary_tasks.h"
 #include "tests/support/contacts.h"
+#include "tests/support/no_allocations.h"
 #include "tests/support/scenario_task.h"
 
 namespace maxwrench {
 namespace {
-
-constexpr const char* kTwoArms = "two_arms.toml";
-constexpr const char* kBarAndWall = "bar_wall.toml";
-constexpr const char* kBarAlone = "bar_alone.toml";  // the second arm exerts nothing
-
-/// A scenario as an ordinary task of the same contact: c has length 1, and a factor of the list is
-/// beta divided by `length`.
-struct OrdinaryTask {
-  Problem task;
-  double length = 1;
-};
-
-Problem along_c(Problem task, const Vector6d& c) {
-  task.c = c.normalized();
-  return task;
-}
-
-Problem dead(const Problem& task, const std::string& actuator) {
-  const Eigen::Index i = actuator_named(task.robot, actuator);
-  return with_limit(with_limit(task, i, LimitSide::kLower, 0), i, LimitSide::kUpper, 0);
-}
 
 /// All thrusters and joints with shares of their limits.
 Problem weaker(Problem task, double thrust, double torque) {
@@ -69,21 +43,10 @@ Problem trimmed(Problem task, double more) {
   return task;
 }
 
-const std::vector<std::string> kThrusters = {"front_right_horizontal", "front_left_horizontal",
-                                             "rear_right_horizontal",  "rear_left_horizontal",
-                                             "front_right_vertical",   "front_left_vertical",
-                                             "rear_right_vertical",    "rear_left_vertical"};
-
 std::vector<OrdinaryTask> two_wrenches(const Problem& plain) {
   Vector6d first = Vector6d::Unit(5), second;
   second << 5, 0, 0, 0, 0, -2;
   return {{along_c(plain, first), 1}, {along_c(plain, second), second.norm()}};
-}
-
-std::vector<OrdinaryTask> any_dead(const Problem& plain) {
-  std::vector<OrdinaryTask> all = {{plain}};
-  for (const std::string& name : kThrusters) all.push_back({dead(plain, name)});
-  return all;
 }
 
 std::vector<OrdinaryTask> corners(const Problem& plain) {
@@ -130,9 +93,6 @@ struct ContactList {
 };
 void PrintTo(const ContactList& list, std::ostream* out) { *out << list.name; }
 
-const char* const kUncertain =
-    "[uncertainty]\nmass.right_link_4 = 0.1\nmass.vehicle = 0.2\ntrim = 0.3\nthrust = 0.1\n"
-    "torque = 0.05\n";
 const char* const kUncertainOrDead =
     "[uncertainty]\nmass.right_link_4 = 0.1\n[loss]\ncases = [['front_left_vertical'], "
     "['rear_left_horizontal', 'right_q3_elbow']]\n";
@@ -151,29 +111,6 @@ const ContactList kContactLists[] = {
      carried_mass, false, true},
     {"no_forces", kBarAlone, kTurn, kUncertain, corners},
 };
-
-/// The value of an ordinary task at the IK solution of another task's posture; -infinity: there is
-/// none.
-double value_at(const Problem& task, const Posture& posture, Wrench wrench) {
-  Case c;
-  c.wrench = wrench;
-  const LowerLevel lower = resolve_lower_level(task, c);
-  const auto measure = lower.make_measure();
-  PostureEvaluator model(task, false);
-  model.evaluate(posture.theta_r);
-  for (int i = 0; i < model.ik_solutions(); ++i) {
-    const Posture& here = model.select(i);
-    if ((here.q - posture.q).norm() > 1e-9) continue;
-    WrenchProgram program = make_wrench_program(task, wrench);
-    set_posture(here, program);
-    Capability capability;
-    measure->evaluate(here, program, false, capability);
-    EXPECT_TRUE(capability.status == Status::kOptimal || capability.status == Status::kInfeasible);
-    return capability.status == Status::kOptimal ? capability.beta : -kInfinity;
-  }
-  ADD_FAILURE() << "no such IK solution";
-  return -kInfinity;
-}
 
 /// The interval of a scenario: its ends are the values along c and against it.
 struct Interval {
@@ -261,106 +198,13 @@ TEST_P(SecondContactList, GradientsAreThoseOfDifferences) {
 }
 
 TEST_P(SecondContactList, LoopAllocatesNothing) {
-  PostureEvaluator model(task_, false);
-  WrenchProgram program = make_wrench_program(task_, Wrench::kPure);
-  const auto measure =
-      make_scenario_polytope(task_, Wrench::kPure, find_wrench_solver("condensed").make(), false);
-  Capability capability;
-  Eigen::VectorXd gradient;
   std::vector<Eigen::VectorXd> points(10, task_.theta_r_default);
   for (std::size_t i = 0; i < points.size(); ++i) points[i][0] += 0.002 * static_cast<double>(i);
-  const auto run = [&](const Eigen::VectorXd& theta_r) {
-    evaluate_best(model, theta_r, *measure, false, program, capability);
-    EXPECT_EQ(capability.status, Status::kOptimal);
-    model.pull_back(theta_r, capability, gradient);
-  };
-  for (const Eigen::VectorXd& point : points) run(point);
-  const long before = allocation_count();
-  for (const Eigen::VectorXd& point : points) run(point);
-  EXPECT_EQ(allocation_count(), before);
+  expect_no_allocations(task_, "condensed", points);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SecondContactList, testing::ValuesIn(kContactLists),
                          [](const auto& test) { return test.param.name; });
-
-/// The weight of a payload and uncertain loads do not turn with a pose that is partly free.
-TEST(SecondContactScenarios, GradientsAtAPartlyFreePoseAreThoseOfDifferences) {
-  const Problem task = second_contact_task(
-      kTwoArms, "",
-      "[payload]\ncom = [0.05, 0.03, 0.02]\n[pose.range]\nx = [-0.05, 0.05]\nroll = [-0.4, 0.4]\n"
-      "pitch = [-0.4, 0.4]\n[uncertainty]\nmass.right_link_4 = 0.1\ntrim = 0.2\n"
-      "[loss]\ncases = [['front_left_vertical']]\n");
-  Options options;
-  options.check_collision = false;
-  Random random(6);
-  expect_gradients(task, options, random);
-}
-
-/// With any wrenches the free components of each scenario are those of an ordinary task.
-TEST(SecondContactScenarios, OfAnyWrenchesAreOrdinaryTasks) {
-  const Problem task =
-      second_contact_task(kTwoArms, kTurn, "[loss]\nany = 1\nactuators = ['thrusters']\n");
-  const std::vector<OrdinaryTask> ordinary = any_dead(second_contact_task(kTwoArms, kTurn, ""));
-  Options options;
-  options.wrench = Wrench::kAny;
-  options.check_collision = false;
-  Random random(9);
-  for (int i = 0; i < samples(6); ++i) {
-    const Answer answer = evaluate(task, near_default(task, random), options);
-    if (answer.posture.status != Status::kValid) continue;
-    double high = kInfinity;
-    for (const OrdinaryTask& one : ordinary) {
-      high = std::min(high, value_at(one.task, answer.posture, Wrench::kAny));
-    }
-    ASSERT_EQ(answer.status, Status::kOptimal) << answer.reason.str();
-    EXPECT_NEAR(answer.beta(), high, 1e-8 * (1 + high));
-  }
-}
-
-/// A disc has the value of its weakest direction, which the answer names.
-TEST(SecondContactScenarios, DiscIsItsWeakestDirection) {
-  const Problem task =
-      second_contact_task(kBarAndWall, "ball = { axes = ['fx', 'fy'], radius = 2 }", "");
-  const Problem plain = second_contact_task(kBarAndWall, kTurn, "");
-  const Answer answer = evaluate(task, task.theta_r_default);
-  ASSERT_EQ(answer.status, Status::kOptimal) << answer.reason.str();
-  const auto value_along = [&](const Vector6d& c) {
-    return value_at(along_c(plain, c), answer.posture, Wrench::kPure) / 2;
-  };
-  const double beta = answer.beta();
-  EXPECT_NEAR(value_along(answer.capability.decides.c), beta, 1e-8 * beta);
-  for (int k = 0; k < 360; ++k) {
-    const double angle = 2 * std::numbers::pi * k / 360;
-    Vector6d c = Vector6d::Zero();
-    c.head<2>() << std::cos(angle), std::sin(angle);
-    EXPECT_GE(value_along(c), beta * (1 - 1e-9));
-  }
-}
-
-/// A ball of three axes needs facets.
-TEST(SecondContactScenarios, BallOfThreeAxesIsRejected) {
-  const Problem task =
-      second_contact_task(kBarAndWall, "ball = { axes = ['fx', 'fy', 'fz'], radius = 2 }", "");
-  try {
-    evaluate(task, task.theta_r_default);
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_EQ(std::string(error.what()).find("wrench: got a ball, expected pure wrenches of one"),
-              0u)
-        << error.what();
-  }
-}
-
-/// A drawn model lies between the corners, so none is below the guarantee.
-TEST(SecondContactScenarios, SampleIsNotBelowTheGuarantee) {
-  const Problem task = second_contact_task(kTwoArms, kTurn, kUncertain);
-  const Answer answer = evaluate(task, task.theta_r_default);
-  ASSERT_EQ(answer.status, Status::kOptimal) << answer.reason.str();
-  const ScenarioSample sample = sample_scenarios(answer, samples(500), 1, std::nullopt);
-  EXPECT_EQ(sample.below, 0);
-  EXPECT_EQ(sample.infeasible, 0);
-  EXPECT_GT(sample.median, answer.beta());
-}
 
 }  // namespace
 }  // namespace maxwrench

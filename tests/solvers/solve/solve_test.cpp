@@ -103,7 +103,7 @@ std::vector<Case> planar_cases() {
     if (!beta_1 && c.measure != "linf_polytope") continue;
     const bool own = c.solver == "facets" || c.solver == "condensed" || c.solver == kNoSolver;
     if (!own && c.search != general_search()) continue;
-    c.budget = c.solver == "ipopt" ? 2000 : c.search.starts_with("grid") ? 400000 : 20000;
+    c.budget = c.solver == "ipopt" ? 1000 : c.search.starts_with("grid") ? 400000 : 20000;
     if (c.search == "mlsl") c.budget = 4000;  // its clusters take time that grows with its square
     cases.push_back(c);
   }

@@ -99,5 +99,18 @@ TEST(PlanBound, RejectsWhatItDoesNotSupport) {
   EXPECT_THROW(bound_trajectories(other), std::invalid_argument);
 }
 
+/// The reason is what a bound is refused with; an option out of range is no such reason.
+TEST(PlanBound, SaysWhyThereIsNone) {
+  const Problem task = load_problem("planar/trajectory"), moved = load_problem("mobile/trajectory");
+  EXPECT_EQ(why_no_trajectory_bound(task), "");
+  EXPECT_THROW(bound_trajectories(task, {}, {.seconds = -1}), std::invalid_argument);
+  try {
+    bound_trajectories(moved);
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_EQ(why_no_trajectory_bound(moved), error.what());
+  }
+}
+
 }  // namespace
 }  // namespace maxwrench
