@@ -70,6 +70,9 @@ class Engine {
   /// Variable q enters at position p; the leaving variable gets `leaving_state`.
   void pivot(int p, int q, VariableState leaving_state, double entering_value);
 
+  /// Finds a basis with reduced costs of the right sign, from any basis with fresh factors and d.
+  /// Leaves the bounds and costs shifted.
+  Outcome make_dual_feasible();
   /// The two phases. They expect fresh factors, x and d.
   Outcome dual();
   Outcome primal();
@@ -98,9 +101,12 @@ class Engine {
   friend class Primal;
   void enter_free_column(int j);
   void load_position(int p);
+  VariableState finite_bound(int j) const;
+  void tableau_row_by_rows(const double* y);
   double jitter(int j);
 
   std::vector<double> row_work_, position_work_, weights_, ratios_, excused_;
+  bool homogeneous_ = false;  // whether b counts as zero
   std::vector<int> candidates_, flipped_, groups_;
   std::uint64_t random_ = 0;
 };

@@ -6,6 +6,11 @@
 
 namespace maxwrench::simplex {
 
+/// From this number of rows on, the factors are sparse and the simplex uses the methods that pay
+/// only there. The programs of single postures have at most a few dozen rows and those of
+/// trajectories a few hundred, so this limit changes none of them.
+inline constexpr int kLargeRows = 600;
+
 /// The scaled program `min cost'x, [I A] x = b, lower <= x <= upper`. The logical variables 0..m-1
 /// come first and are fixed at zero; they give every program a regular basis. Column j of the
 /// program is variable m + j. All factors are powers of two, so scaling causes no rounding:
@@ -17,10 +22,15 @@ struct Model {
   std::vector<double> value;
   std::vector<double> b, cost, lower, upper;
   std::vector<char> fixed;
+  /// Large programs only: the columns that are not fixed, by rows.
+  std::vector<int> row_start, row_index;
+  std::vector<double> row_value;
   std::vector<double> row_scale, col_scale;
   double rhs_scale = 1, cost_scale = 1;
   bool scaled = false;
   bool crossing = false;
+
+  bool large() const { return rows >= kLargeRows; }
 
   /// Copies and scales the program; drops explicit zeros. Returns false if the program is
   /// malformed.
@@ -33,6 +43,7 @@ struct Model {
   void apply_matrix_scales();
   void apply_vector_scales();
   void scale_costs();
+  void copy_by_rows();
 
   std::vector<double> row_max_, col_max_, row_min_, col_min_;
 };
