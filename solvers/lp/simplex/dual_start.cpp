@@ -16,8 +16,8 @@ constexpr double kFreeBox = 1000;
 ///   one), -1000 <= x_j <= 1000 (free), x_j = 0 (boxed, where the sign does not matter),
 ///
 /// every basis is one, after its columns move to the right bound. If the optimum is zero, the
-/// optimal basis is one for the true bounds as well. Otherwise no basis is, and the dual simplex has
-/// to shift costs. (Koberstein 2005, section 4.4.)
+/// optimal basis is one for the true bounds as well. Otherwise no basis is, and the dual simplex
+/// has to shift costs. (Koberstein 2005, section 4.4.)
 Outcome Engine::make_dual_feasible() {
   homogeneous_ = true;
   for (int j = model.rows; j < model.total; ++j) {

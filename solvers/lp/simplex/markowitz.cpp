@@ -170,8 +170,8 @@ bool Markowitz::try_column(int position, Choice& best) {
     if (!(size > singular_tolerance_)) continue;
     if (list.size() > 1 && size < kThreshold * largest_of_row(i)) continue;
     found = true;
-    const double cost = (static_cast<double>(list.size()) - 1) *
-                        (static_cast<double>(rows_[i].size()) - 1);
+    const double cost =
+        (static_cast<double>(list.size()) - 1) * (static_cast<double>(rows_[i].size()) - 1);
     if (cost < best.cost || (cost == best.cost && size > best.size)) {
       best = {i, position, cost, size};
     }
@@ -221,9 +221,8 @@ void Markowitz::eliminate(int row, int position) {
   for (const int i : columns_[position]) {
     if (i == row) continue;
     auto& list = rows_[i];
-    const auto it = std::find_if(list.begin(), list.end(), [&](const Entry& entry) {
-      return entry.position == position;
-    });
+    const auto it = std::find_if(list.begin(), list.end(),
+                                 [&](const Entry& entry) { return entry.position == position; });
     const double factor = it->value / pivot;
     *it = list.back();
     list.pop_back();

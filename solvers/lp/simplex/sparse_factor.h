@@ -44,8 +44,8 @@ class SparseFactor {
   int m_ = 0;
   Markowitz lu_;
   Lines l_rows_, u_columns_;
-  std::vector<double> inverse_;   // of the pivots
-  std::vector<int> step_;         // of each position
+  std::vector<double> inverse_;    // of the pivots
+  std::vector<int> step_;          // of each position
   mutable std::vector<double> x_;  // by steps
   std::vector<double> spike_;
   std::vector<Update> updates_;
