@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "solvers/lp/simplex/engine.h"
@@ -18,7 +19,7 @@ constexpr double kFreeBox = 1000;
 /// every basis is one, after its columns move to the right bound. If the optimum is zero, the
 /// optimal basis is one for the true bounds as well. Otherwise no basis is, and the dual simplex
 /// has to shift costs. (Koberstein 2005, section 4.4.)
-Outcome Engine::make_dual_feasible() {
+Outcome Engine::find_dual_feasible_basis() {
   homogeneous_ = true;
   for (int j = model.rows; j < model.total; ++j) {
     const bool low = std::isfinite(lower[j]), high = std::isfinite(upper[j]);
@@ -31,9 +32,11 @@ Outcome Engine::make_dual_feasible() {
   const Outcome outcome = dual();
   homogeneous_ = false;
   reset_bounds_and_costs();
+  std::fill(excused_.begin(), excused_.end(), 0.0);
   for (int j = model.rows; j < model.total; ++j) {
     if (state[j] != VariableState::kBasic) state[j] = finite_bound(j);
   }
+  compute_primal();
   // x = 0 is feasible, so a proof of the contrary is due to rounding.
   return outcome == Outcome::kInfeasible ? Outcome::kTrouble : outcome;
 }

@@ -18,7 +18,7 @@ double largest_magnitude(const std::vector<double>& v) {
 }  // namespace
 
 void Engine::resize() {
-  factor.resize(model.rows, options.max_updates);
+  factor.resize(model.rows, options.max_updates, model.sparse);
   const std::size_t m = model.rows, total = model.total;
   if (head.size() == m && state.size() == total) return;
   head.resize(m);
@@ -252,7 +252,7 @@ void Engine::refined_inverse_row(int row) {
 }
 
 void Engine::tableau_row(const double* row) {
-  if (model.large()) return tableau_row_by_rows(row);
+  if (model.sparse) return tableau_row_by_rows(row);
   for (int j = model.rows; j < model.total; ++j) {
     double sum = 0;
     if (state[j] != VariableState::kBasic && !model.fixed[j]) {

@@ -70,9 +70,8 @@ class Engine {
   /// Variable q enters at position p; the leaving variable gets `leaving_state`.
   void pivot(int p, int q, VariableState leaving_state, double entering_value);
 
-  /// Finds a basis with reduced costs of the right sign, from any basis with fresh factors and d.
-  /// Leaves the bounds and costs shifted.
-  Outcome make_dual_feasible();
+  /// Finds a basis with reduced costs of the right sign. Ends with the original bounds and costs.
+  Outcome find_dual_feasible_basis();
   /// The two phases. They expect fresh factors, x and d.
   Outcome dual();
   Outcome primal();

@@ -10,13 +10,13 @@ constexpr int kSmall = 24;
 
 }  // namespace
 
-void Factor::resize(int rows, int max_updates) {
-  if (rows == m_ && max_updates == max_updates_) return;
+void Factor::resize(int rows, int max_updates, bool sparse) {
+  if (rows == m_ && max_updates == max_updates_ && sparse == large_) return;
   m_ = rows;
   max_updates_ = max_updates;
   small_ = rows <= kSmall;
   singular_.reserve(m_);
-  large_ = rows >= kLargeRows;
+  large_ = sparse;
   if (small_) return inverse_.resize(rows);
   if (large_) return sparse_.resize(rows, max_updates);
   for (auto* v : {&begin_, &end_, &row_count_, &column_count_, &row_sum_, &column_sum_, &queue_}) {

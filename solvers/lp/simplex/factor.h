@@ -17,10 +17,10 @@ namespace maxwrench::simplex {
 ///   [ 0  *  D ]    the kernel, a dense LU with row exchanges
 ///
 /// so fill-in occurs in D only. A pivot appends B^-1 times its column (product form). For a basis
-/// of few rows, the explicit inverse is used instead.
+/// of few rows, the explicit inverse is used instead, and for a large sparse one, sparse factors.
 class Factor {
  public:
-  void resize(int rows, int max_updates);
+  void resize(int rows, int max_updates, bool sparse);
 
   /// Factors B from scratch; the order of `head` may change. If columns depend on others,
   /// `singular` lists them, and the result is false.
@@ -54,7 +54,7 @@ class Factor {
   void solve_kernel_transposed(double* c, double* y) const;
 
   int m_ = 0, updates_ = 0, max_updates_ = 0, k_ = 0;
-  bool small_ = false, large_ = false;
+  bool small_ = false, large_ = false;  // which of `inverse_` and `sparse_` is used, if any
   Inverse inverse_;
   SparseFactor sparse_;
   const Model* model_ = nullptr;

@@ -29,7 +29,9 @@ bool Model::load(const LinearProgram& program) {
   choose_scales();
   if (scaled) apply_matrix_scales();
   apply_vector_scales();
-  if (large()) copy_by_rows();
+  const double entries = start[total] - rows;
+  sparse = rows >= kSparseRows && entries <= kSparseDensity * rows * cols;
+  if (sparse) copy_by_rows();
   return true;
 }
 

@@ -6,10 +6,12 @@
 
 namespace maxwrench::simplex {
 
-/// From this number of rows on, the factors are sparse and the simplex uses the methods that pay
-/// only there. The programs of single postures have at most a few dozen rows and those of
-/// trajectories a few hundred, so this limit changes none of them.
-inline constexpr int kLargeRows = 600;
+/// From this number of rows on, and up to this share of non-zero entries, a program gets sparse
+/// factors, and the simplex uses the methods that pay only there. The programs of single postures
+/// have at most a few dozen rows and those of trajectories a few hundred, so these limits change
+/// none of them. With dense columns, dense factors are faster.
+inline constexpr int kSparseRows = 600;
+inline constexpr double kSparseDensity = 0.1;
 
 /// The scaled program `min cost'x, [I A] x = b, lower <= x <= upper`. The logical variables 0..m-1
 /// come first and are fixed at zero; they give every program a regular basis. Column j of the
@@ -22,15 +24,14 @@ struct Model {
   std::vector<double> value;
   std::vector<double> b, cost, lower, upper;
   std::vector<char> fixed;
-  /// Large programs only: the columns that are not fixed, by rows.
+  /// Sparse programs only: the columns that are not fixed, by rows.
   std::vector<int> row_start, row_index;
   std::vector<double> row_value;
   std::vector<double> row_scale, col_scale;
   double rhs_scale = 1, cost_scale = 1;
   bool scaled = false;
   bool crossing = false;
-
-  bool large() const { return rows >= kLargeRows; }
+  bool sparse = false;  ///< whether the program is within the limits above
 
   /// Copies and scales the program; drops explicit zeros. Returns false if the program is
   /// malformed.

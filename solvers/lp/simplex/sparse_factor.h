@@ -19,11 +19,11 @@ class SparseFactor {
   void resize(int rows, int max_updates);
   bool factorise(const Model& model, const std::vector<int>& head, double singular_tolerance,
                  std::vector<Replacement>& singular);
-  /// Solves B z = a. Overwrites `a`, which is ordered by rows; z is ordered by positions.
+  /// Solves B z = a. `a` is ordered by rows, z by positions.
   void ftran(const double* a, double* z) const;
   /// The same for a column that may enter: keeps what `update` needs.
   void ftran_entering(const double* a, double* z);
-  /// Solves B'y = c. `c` is ordered by positions; y is ordered by rows.
+  /// Solves B'y = c. `c` is ordered by positions, y by rows.
   void btran(const double* c, double* y) const;
   /// Row `position` of B^-1.
   void row(int position, double* y) const;

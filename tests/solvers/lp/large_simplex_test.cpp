@@ -1,4 +1,4 @@
-// Programs of so many rows that the simplex takes sparse factors.
+// Programs of so many rows and so few entries that the simplex takes sparse factors.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 namespace maxwrench {
 namespace {
 
-constexpr int kRows = simplex::kLargeRows + 40, kCols = 2 * kRows;
+constexpr int kRows = simplex::kSparseRows + 40, kCols = 2 * kRows;
 
 /// A program with an optimum by construction: x is at a bound or inside, and c = A'y + d with a d
 /// whose signs fit x.
@@ -22,13 +22,13 @@ struct Constructed {
   double optimum = 0;
 };
 
-Constructed construct(Random& random, bool integer) {
+Constructed construct(Random& random, bool integer, int entries_per_column = 4) {
   const auto number = [&] {
     return integer ? static_cast<double>(random.next() % 5) - 2 : random.normal();
   };
   std::vector<Eigen::Triplet<double>> entries;
   for (int j = 0; j < kCols; ++j) {
-    for (int k = 0; k < 4; ++k) {
+    for (int k = 0; k < entries_per_column; ++k) {
       entries.emplace_back(static_cast<int>(random.next() % kRows), j, number());
     }
   }
@@ -81,6 +81,21 @@ TEST(LargeSimplex, OptimaByConstruction) {
   }
 }
 
+/// One object takes dense factors for a program of as many rows but more entries, and sparse ones
+/// again.
+TEST(LargeSimplex, DenseBetweenSparse) {
+  Random random(55);
+  const auto simplex = make_simplex();
+  for (const int entries : {3, kRows / 8, 3}) {
+    const auto [program, optimum] = construct(random, false, entries);
+    LpSolution solution;
+    simplex->solve(program, solution);
+    EXPECT_EQ(solution.status, Status::kOptimal);
+    expect_verified(program, solution);
+    EXPECT_NEAR(solution.objective, optimum, 1e-8 * (1 + std::abs(optimum)));
+  }
+}
+
 /// An assignment of workers to tasks, each worker with 8 possible tasks: every basis is degenerate.
 LinearProgram assignment(Random& random) {
   const int workers = kRows / 2, choices = 8;
@@ -90,8 +105,8 @@ LinearProgram assignment(Random& random) {
   p.c.resize(columns);
   for (int j = 0; j < columns; ++j) {
     const int worker = j % workers;
-    const int task = j < workers ? (3 * worker + 1) % workers
-                                 : static_cast<int>(random.next() % workers);
+    const int task =
+        j < workers ? (3 * worker + 1) % workers : static_cast<int>(random.next() % workers);
     entries.emplace_back(worker, j, 1);
     entries.emplace_back(workers + task, j, 1);
     p.c[j] = -1 - static_cast<double>(random.next() % 20);

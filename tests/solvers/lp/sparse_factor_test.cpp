@@ -179,10 +179,9 @@ TEST(SparseFactor, NearlyDependentColumns) {
       ASSERT_EQ(singular.size(), 1U);
       EXPECT_LE(singular[0].position, 1);
       head[singular[0].position] = singular[0].row;
-      EXPECT_GT(Eigen::FullPivLU<Eigen::MatrixXd>(basis_matrix(model, head))
-                    .setThreshold(1e-9)
-                    .rank(),
-                59);
+      EXPECT_GT(
+          Eigen::FullPivLU<Eigen::MatrixXd>(basis_matrix(model, head)).setThreshold(1e-9).rank(),
+          59);
     }
   }
 }
