@@ -20,9 +20,9 @@ struct SimplexOptions {
   int max_iterations = 0;             ///< pivots and bound flips; 0: 2,000 + 20 (rows + columns)
 };
 
-/// A bounded-variable simplex for `max c'x, A x = b, l <= x <= u`. From 600 rows on, a program with
-/// at most a tenth of non-zero entries gets sparse factors. Others are meant to be up to about 500
-/// × 1,000.
+/// A bounded-variable simplex for `max c'x, A x = b, l <= x <= u`. From 1,500 rows on, a program
+/// with at most a tenth of non-zero entries gets sparse factors. Others are meant to be up to about
+/// 500 × 1,000.
 ///
 /// A basis that is dual feasible, if necessary after boxed variables move to their other bound, is
 /// repaired by the dual simplex. A basis that is primal feasible is improved by the primal simplex.
