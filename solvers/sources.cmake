@@ -15,8 +15,8 @@ set(maxwrench_solvers_sources
   lp/elastic.cpp
   lp/exact/exact_basis.cpp lp/exact/rational_elimination.cpp
   lp/simplex.cpp
-  lp/simplex/dual.cpp lp/simplex/engine.cpp lp/simplex/factor.cpp lp/simplex/inverse.cpp lp/simplex/model.cpp
-  lp/simplex/primal.cpp
+  lp/simplex/dual.cpp lp/simplex/dual_start.cpp lp/simplex/engine.cpp lp/simplex/factor.cpp lp/simplex/inverse.cpp
+  lp/simplex/markowitz.cpp lp/simplex/model.cpp lp/simplex/primal.cpp lp/simplex/sparse_factor.cpp
   map/lattice.cpp map/map.cpp map/map_text.cpp map/plan_check.cpp map/posed.cpp map/robot_keys.cpp
   pareto/front.cpp pareto/front_text.cpp pareto/weighted.cpp
   search/annealing.cpp search/batch.cpp search/cmaes.cpp search/composition.cpp search/facet_starts.cpp search/grid.cpp

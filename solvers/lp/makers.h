@@ -20,16 +20,18 @@ struct SimplexOptions {
   int max_iterations = 0;             ///< pivots and bound flips; 0: 2,000 + 20 (rows + columns)
 };
 
-/// A bounded-variable simplex for `max c'x, A x = b, l <= x <= u`. Its factors are dense, so it is
-/// meant for up to about 500 × 1,000.
+/// A bounded-variable simplex for `max c'x, A x = b, l <= x <= u`. From 1,500 rows on, a program
+/// with at most a tenth of non-zero entries gets sparse factors. Others are meant to be up to about
+/// 500 × 1,000.
 ///
 /// A basis that is dual feasible, if necessary after boxed variables move to their other bound, is
 /// repaired by the dual simplex. A basis that is primal feasible is improved by the primal simplex.
 /// A basis that is neither goes through a first phase: the dual simplex on costs shifted until the
-/// basis is dual feasible. The phase ends with a feasible basis or a proof that there is none. A
-/// solution with a `basis` that fits is a warm start. After the first call, a warm start of the
-/// same sizes allocates nothing. The same program and the same basis give the same answer, bit for
-/// bit.
+/// basis is dual feasible. With sparse factors, it first looks for a basis that needs no shifts.
+/// The phase ends with a feasible basis or a proof that there is none. A solution with a `basis`
+/// that fits is a warm start. After the first call, a warm start of the same sizes allocates
+/// nothing, unless its factors are sparse. The same program and the same basis give the same
+/// answer, bit for bit.
 std::unique_ptr<LpSolver> make_simplex(const SimplexOptions& options = {});
 
 /// Clp, COIN-OR's simplex library, silent: the dual simplex with bounds and costs unperturbed.

@@ -131,7 +131,9 @@ Status Simplex::run_rounds(const char*& reason) {
       e.refine();
       return Status::kOptimal;
     }
-    switch (feasible ? e.primal() : e.dual()) {
+    // In small programs, costs shifted until the signs are right need fewer pivots.
+    const bool seek_signs = e.model.sparse && round == 0 && !feasible && !dual_feasible();
+    switch (seek_signs ? e.find_dual_feasible_basis() : feasible ? e.primal() : e.dual()) {
       case Outcome::kDone:
         break;
       case Outcome::kInfeasible:

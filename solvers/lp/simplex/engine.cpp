@@ -18,7 +18,7 @@ double largest_magnitude(const std::vector<double>& v) {
 }  // namespace
 
 void Engine::resize() {
-  factor.resize(model.rows, options.max_updates);
+  factor.resize(model.rows, options.max_updates, model.sparse);
   const std::size_t m = model.rows, total = model.total;
   if (head.size() == m && state.size() == total) return;
   head.resize(m);
@@ -58,11 +58,14 @@ double Engine::jitter(int j) {
   return 0.5 + 0.5 * static_cast<double>(z >> 11) * 0x1p-53;
 }
 
+VariableState Engine::finite_bound(int j) const {
+  if (std::isfinite(lower[j])) return VariableState::kAtLower;
+  return std::isfinite(upper[j]) ? VariableState::kAtUpper : VariableState::kFree;
+}
+
 void Engine::crash_basis() {
   for (int j = 0; j < model.total; ++j) {
-    state[j] = std::isfinite(lower[j])   ? VariableState::kAtLower
-               : std::isfinite(upper[j]) ? VariableState::kAtUpper
-                                         : VariableState::kFree;
+    state[j] = finite_bound(j);
     if (state[j] == VariableState::kAtLower && std::abs(upper[j]) < std::abs(lower[j])) {
       state[j] = VariableState::kAtUpper;
     }
@@ -110,9 +113,7 @@ bool Engine::refactor() {
     for (const auto& [position, row] : factor.singular()) {
       const int j = head[position];
       if (state[row] == VariableState::kBasic) continue;
-      state[j] = std::isfinite(lower[j])   ? VariableState::kAtLower
-                 : std::isfinite(upper[j]) ? VariableState::kAtUpper
-                                           : VariableState::kFree;
+      state[j] = finite_bound(j);
       head[position] = row;
       state[row] = VariableState::kBasic;
     }
@@ -124,7 +125,11 @@ bool Engine::refactor() {
 }
 
 void Engine::compute_primal() {
-  std::copy(model.b.begin(), model.b.end(), row_work_.begin());
+  if (homogeneous_) {
+    std::fill(row_work_.begin(), row_work_.end(), 0.0);
+  } else {
+    std::copy(model.b.begin(), model.b.end(), row_work_.begin());
+  }
   for (int j = 0; j < model.total; ++j) {
     if (state[j] == VariableState::kBasic) continue;
     const double x = nonbasic_value(j);
@@ -228,7 +233,7 @@ void Engine::column(int j, double* z) {
   for (int e = model.start[j]; e < model.start[j + 1]; ++e) {
     row_work_[model.index[e]] = model.value[e];
   }
-  factor.ftran(row_work_.data(), z);
+  factor.ftran_entering(row_work_.data(), z);
 }
 
 void Engine::inverse_row(int p, double* result) { factor.row(p, position_work_.data(), result); }
@@ -247,6 +252,7 @@ void Engine::refined_inverse_row(int row) {
 }
 
 void Engine::tableau_row(const double* row) {
+  if (model.sparse) return tableau_row_by_rows(row);
   for (int j = model.rows; j < model.total; ++j) {
     double sum = 0;
     if (state[j] != VariableState::kBasic && !model.fixed[j]) {
@@ -256,6 +262,19 @@ void Engine::tableau_row(const double* row) {
     }
     alpha_row[j] = sum;
   }
+}
+
+/// The same over the non-zero entries of `row` only.
+void Engine::tableau_row_by_rows(const double* row) {
+  std::fill(alpha_row.begin(), alpha_row.end(), 0.0);
+  for (int i = 0; i < model.rows; ++i) {
+    const double y_i = row[i];
+    if (y_i == 0) continue;
+    for (int e = model.row_start[i]; e < model.row_start[i + 1]; ++e) {
+      alpha_row[model.row_index[e]] += y_i * model.row_value[e];
+    }
+  }
+  for (const int j : head) alpha_row[j] = 0;
 }
 
 void Engine::pivot(int p, int q, VariableState leaving_state, double entering_value) {

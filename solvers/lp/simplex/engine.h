@@ -70,6 +70,8 @@ class Engine {
   /// Variable q enters at position p; the leaving variable gets `leaving_state`.
   void pivot(int p, int q, VariableState leaving_state, double entering_value);
 
+  /// Finds a basis with reduced costs of the right sign. Ends with the original bounds and costs.
+  Outcome find_dual_feasible_basis();
   /// The two phases. They expect fresh factors, x and d.
   Outcome dual();
   Outcome primal();
@@ -98,9 +100,12 @@ class Engine {
   friend class Primal;
   void enter_free_column(int j);
   void load_position(int p);
+  VariableState finite_bound(int j) const;
+  void tableau_row_by_rows(const double* y);
   double jitter(int j);
 
   std::vector<double> row_work_, position_work_, weights_, ratios_, excused_;
+  bool homogeneous_ = false;  // whether b counts as zero
   std::vector<int> candidates_, flipped_, groups_;
   std::uint64_t random_ = 0;
 };

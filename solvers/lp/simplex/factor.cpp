@@ -10,13 +10,15 @@ constexpr int kSmall = 24;
 
 }  // namespace
 
-void Factor::resize(int rows, int max_updates) {
-  if (rows == m_ && max_updates == max_updates_) return;
+void Factor::resize(int rows, int max_updates, bool sparse) {
+  if (rows == m_ && max_updates == max_updates_ && sparse == large_) return;
   m_ = rows;
   max_updates_ = max_updates;
   small_ = rows <= kSmall;
   singular_.reserve(m_);
+  large_ = sparse;
   if (small_) return inverse_.resize(rows);
+  if (large_) return sparse_.resize(rows, max_updates);
   for (auto* v : {&begin_, &end_, &row_count_, &column_count_, &row_sum_, &column_sum_, &queue_}) {
     v->resize(m_);
   }
@@ -39,6 +41,7 @@ bool Factor::factorise(const Model& model, std::vector<int>& head, double singul
   updates_ = 0;
   singular_.clear();
   if (small_) return inverse_.invert(model, head, singular_tolerance, singular_);
+  if (large_) return sparse_.factorise(model, head, singular_tolerance, singular_);
   for (int p = 0; p < m_; ++p) {
     begin_[p] = model.start[head[p]];
     end_[p] = model.start[head[p] + 1];
@@ -239,6 +242,7 @@ void Factor::solve_kernel(double* a, double* z) const {
 
 void Factor::ftran(double* a, double* z) const {
   if (small_) return inverse_.ftran(a, z);
+  if (large_) return sparse_.ftran(a, z);
   const int* const index = model_->index.data();
   const double* const value = model_->value.data();
   const auto eliminate = [&](const Pivot& pivot) {
@@ -262,6 +266,11 @@ void Factor::ftran(double* a, double* z) const {
     for (int p = 0; p < m_; ++p) z[p] -= f * eta[p];
     z[r] = f;
   }
+}
+
+void Factor::ftran_entering(double* a, double* z) {
+  if (large_) return sparse_.ftran_entering(a, z);
+  ftran(a, z);
 }
 
 void Factor::solve_kernel_transposed(double* c, double* y) const {
@@ -290,6 +299,7 @@ void Factor::solve_kernel_transposed(double* c, double* y) const {
 
 void Factor::row(int position, double* c, double* y) const {
   if (small_) return inverse_.row(position, y);
+  if (large_) return sparse_.row(position, y);
   std::fill(c, c + m_, 0.0);
   c[position] = 1;
   btran(c, y);
@@ -297,6 +307,7 @@ void Factor::row(int position, double* c, double* y) const {
 
 void Factor::btran(double* c, double* y) const {
   if (small_) return inverse_.btran(c, y);
+  if (large_) return sparse_.btran(c, y);
   const int* const index = model_->index.data();
   const double* const value = model_->value.data();
   for (int u = updates_ - 1; u >= 0; --u) {
@@ -321,6 +332,10 @@ void Factor::update(int position, const double* alpha) {
   if (small_) {
     ++updates_;
     return inverse_.update(position, alpha);
+  }
+  if (large_) {
+    ++updates_;
+    return sparse_.update(position, alpha[position]);
   }
   std::copy(alpha, alpha + m_, etas_.begin() + static_cast<std::size_t>(updates_) * m_);
   eta_positions_[updates_++] = position;

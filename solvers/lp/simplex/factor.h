@@ -4,6 +4,7 @@
 
 #include "solvers/lp/simplex/inverse.h"
 #include "solvers/lp/simplex/model.h"
+#include "solvers/lp/simplex/sparse_factor.h"
 
 namespace maxwrench::simplex {
 
@@ -16,10 +17,10 @@ namespace maxwrench::simplex {
 ///   [ 0  *  D ]    the kernel, a dense LU with row exchanges
 ///
 /// so fill-in occurs in D only. A pivot appends B^-1 times its column (product form). For a basis
-/// of few rows, the explicit inverse is used instead.
+/// of few rows, the explicit inverse is used instead, and for a large sparse one, sparse factors.
 class Factor {
  public:
-  void resize(int rows, int max_updates);
+  void resize(int rows, int max_updates, bool sparse);
 
   /// Factors B from scratch; the order of `head` may change. If columns depend on others,
   /// `singular` lists them, and the result is false.
@@ -28,6 +29,8 @@ class Factor {
 
   /// Solves B z = a. Overwrites `a`, which is ordered by rows; z is ordered by positions.
   void ftran(double* a, double* z) const;
+  /// The same for a column that `update` may then take into the basis.
+  void ftran_entering(double* a, double* z);
   /// Solves B'y = c. Overwrites `c`, which is ordered by positions; y is ordered by rows.
   void btran(double* c, double* y) const;
   /// Row `position` of B^-1. Overwrites `c`, which is ordered by positions.
@@ -51,8 +54,9 @@ class Factor {
   void solve_kernel_transposed(double* c, double* y) const;
 
   int m_ = 0, updates_ = 0, max_updates_ = 0, k_ = 0;
-  bool small_ = false;
+  bool small_ = false, large_ = false;  // which of `inverse_` and `sparse_` is used, if any
   Inverse inverse_;
+  SparseFactor sparse_;
   const Model* model_ = nullptr;
   std::vector<int> begin_, end_;  // entries of the factored column at each position
   std::vector<Pivot> column_pivots_, row_pivots_;

@@ -29,6 +29,9 @@ bool Model::load(const LinearProgram& program) {
   choose_scales();
   if (scaled) apply_matrix_scales();
   apply_vector_scales();
+  const double entries = start[total] - rows;
+  sparse = rows >= kSparseRows && entries <= kSparseDensity * rows * cols;
+  if (sparse) copy_by_rows();
   return true;
 }
 
@@ -176,6 +179,25 @@ void Model::apply_vector_scales() {
     }
     for (int i = 0; i < rows; ++i) b[i] *= rhs_scale;
   }
+}
+
+void Model::copy_by_rows() {
+  row_start.assign(rows + 1, 0);
+  const auto for_each_entry = [&](const auto& visit) {
+    for (int j = total - 1; j >= rows; --j) {
+      for (int e = start[j]; e < start[j + 1] && !fixed[j]; ++e) visit(j, index[e], value[e]);
+    }
+  };
+  int entries = 0;
+  for_each_entry([&](int, int i, double) { ++row_start[i], ++entries; });
+  row_index.resize(entries);
+  row_value.resize(entries);
+  for (int i = 0, sum = 0; i <= rows; ++i) row_start[i] = sum += row_start[i];
+  for_each_entry([&](int j, int i, double v) {
+    const int to = --row_start[i];
+    row_index[to] = j;
+    row_value[to] = v;
+  });
 }
 
 void Model::scale_costs() {

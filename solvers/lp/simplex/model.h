@@ -6,6 +6,13 @@
 
 namespace maxwrench::simplex {
 
+/// From this number of rows on, and up to this share of non-zero entries, a program gets sparse
+/// factors, and the simplex uses the methods that pay only there. Single postures have at most a
+/// few dozen rows and the trajectories of the shipped tasks up to 1,162, so these limits change no
+/// result of theirs. With more entries, dense factors are faster.
+inline constexpr int kSparseRows = 1500;
+inline constexpr double kSparseDensity = 0.1;
+
 /// The scaled program `min cost'x, [I A] x = b, lower <= x <= upper`. The logical variables 0..m-1
 /// come first and are fixed at zero; they give every program a regular basis. Column j of the
 /// program is variable m + j. All factors are powers of two, so scaling causes no rounding:
@@ -17,10 +24,14 @@ struct Model {
   std::vector<double> value;
   std::vector<double> b, cost, lower, upper;
   std::vector<char> fixed;
+  /// Sparse programs only: the columns that are not fixed, by rows.
+  std::vector<int> row_start, row_index;
+  std::vector<double> row_value;
   std::vector<double> row_scale, col_scale;
   double rhs_scale = 1, cost_scale = 1;
   bool scaled = false;
   bool crossing = false;
+  bool sparse = false;  ///< whether the program is within the limits above
 
   /// Copies and scales the program; drops explicit zeros. Returns false if the program is
   /// malformed.
@@ -33,6 +44,7 @@ struct Model {
   void apply_matrix_scales();
   void apply_vector_scales();
   void scale_costs();
+  void copy_by_rows();
 
   std::vector<double> row_max_, col_max_, row_min_, col_min_;
 };

@@ -5,6 +5,12 @@
 #include "solvers/lp/simplex/engine.h"
 
 namespace maxwrench::simplex {
+namespace {
+
+/// In sparse programs, a larger Devex weight starts a new reference framework.
+constexpr double kLargestWeight = 1e7;
+
+}  // namespace
 
 /// The primal simplex: starts from a feasible basis and improves the objective.
 ///
@@ -184,6 +190,10 @@ void Primal::update_duals(int q, double pivot) {
     e_.d[j] -= theta * a;
     const double ratio = a / pivot;
     e_.weights_[j] = std::max(e_.weights_[j], ratio * ratio * reference);
+  }
+  // After thousands of pivots, weights grow until they overflow and hide every violation.
+  if (e_.model.sparse && reference > kLargestWeight) {
+    std::fill(e_.weights_.begin(), e_.weights_.end(), 1.0);
   }
   e_.d[q] = 0;
   e_.d[leaving] = -theta;
