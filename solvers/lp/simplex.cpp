@@ -131,7 +131,7 @@ Status Simplex::run_rounds(const char*& reason) {
       e.refine();
       return Status::kOptimal;
     }
-    // In small programs, costs shifted until the signs are right need fewer pivots.
+    // Without sparse factors, the dual simplex shifts costs instead, as it does if this fails.
     const bool seek_signs = e.model.sparse && round == 0 && !feasible && !dual_feasible();
     switch (seek_signs ? e.find_dual_feasible_basis() : feasible ? e.primal() : e.dual()) {
       case Outcome::kDone:
