@@ -20,7 +20,7 @@ struct SimplexOptions {
   int max_iterations = 0;             ///< pivots and bound flips; 0: 2,000 + 20 (rows + columns)
 };
 
-/// A bounded-variable simplex for `max c'x, A x = b, l <= x <= u`. From 1,500 rows on, a program
+/// A bounded-variable simplex for `max c'x, A x = b, l <= x <= u`. From 600 rows on, a program
 /// with at most a tenth of non-zero entries gets sparse factors. Others are meant to be up to about
 /// 500 × 1,000.
 ///
