@@ -8,14 +8,15 @@
 namespace maxwrench {
 namespace {
 
-std::string last_of(const std::string& tables) {
+std::string name_of_last(const std::string& tables) {
   const Problem task = scenario_task(kTurn, tables);
   return describe(task.scenarios, all_scenarios(task.scenarios).back());
 }
 
 TEST(ScenarioList, TellsScenariosApart) {
-  EXPECT_EQ(last_of("[uncertainty]\nthrust = 0.1\n"), "weaker actuators");
-  EXPECT_EQ(last_of("[loss]\ncases = [[\"front_left_vertical\"]]\n"), "front_left_vertical dead");
+  EXPECT_EQ(name_of_last("[uncertainty]\nthrust = 0.1\n"), "weaker actuators");
+  EXPECT_EQ(name_of_last("[loss]\ncases = [[\"front_left_vertical\"]]\n"),
+            "front_left_vertical dead");
 }
 
 }  // namespace
