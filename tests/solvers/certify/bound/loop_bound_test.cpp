@@ -48,7 +48,8 @@ void test_pairs(const Problem& problem, const std::string& measure) {
   BoxProof proof;
   int bounded = 0, finite = 0;
   for (int pair = 0; pair < samples(kLoopPairs); ++pair) {
-    const ValuedPosture* const at = source.draw(random);
+    const ValuedPosture* at = source.draw(random);
+    for (int more = 0; kSanitized && at == nullptr && more < 60; ++more) at = source.draw(random);
     if (at == nullptr) continue;
     LoopBoxOf box = box_about(at->x, source.coordinates(), random);
     for (Eigen::Index i = 0; i < at->x.size(); ++i) {  // room for the rounding of the posture
