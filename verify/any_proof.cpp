@@ -158,17 +158,21 @@ std::unique_ptr<ValueProof> make_any_proof(const Problem& problem, const FormMod
 std::unique_ptr<ValueProof> make_value_proof(const Problem& problem, const FormModel& model,
                                              const Equations& equations, const std::string& measure,
                                              Wrench wrench) {
+  // The other bounds know no force of a second contact.
+  if (problem.contact_columns() > 0) {
+    if (wrench == Wrench::kPure && measure == "linf_polytope" && problem.scenarios.empty()) {
+      return make_braced_proof(problem, model, equations);
+    }
+    throw std::invalid_argument(problem.name +
+                                ": got forces of a second contact, expected linf_polytope and a "
+                                "single wrench, pure");
+  }
   if (!problem.scenarios.empty()) {
     if (wrench == Wrench::kPure && measure == "linf_polytope") {
       return make_list_proof(problem, model, equations);
     }
     throw std::invalid_argument(problem.name +
                                 ": got a list of scenarios, expected linf_polytope and pure");
-  }
-  if (wrench == Wrench::kPure && problem.contact_columns() > 0) {
-    if (measure == "linf_polytope") return make_braced_proof(problem, model, equations);
-    throw std::invalid_argument("measure: got '" + measure +
-                                "', expected linf_polytope with forces of a second contact");
   }
   if (wrench == Wrench::kPure) return make_pure_proof(problem, model, equations, measure);
   if (measure == "linf_polytope") return make_any_proof(problem, model);

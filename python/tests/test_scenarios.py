@@ -198,7 +198,7 @@ def test_lists_in_time():
     assert both.decides == "wrench 2" and 0 <= both.decides_at <= 2
     assert both.worst["wrench"] == "wrench 2" and alone.worst is None
     weaker = value(uncertainty={"thrust": 0.1})
-    assert weaker.beta < alone.beta and weaker.decides == "nominal"
+    assert weaker.beta < alone.beta and weaker.decides == "weaker actuators"
     limp = value(loss={"cases": [["elbow"]]})  # holds its own link's inertia and no wrench
     assert abs(limp.beta) < 0.01 * alone.beta and limp.decides == "elbow limp"
     assert limp.worst["limp"] == ["elbow"] and limp.worst["deltas"] == {}

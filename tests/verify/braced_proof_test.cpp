@@ -50,6 +50,23 @@ TEST(BracedRows, AreTheBalanceWithoutTheContactsForce) {
   EXPECT_GT(seen, 5);
 }
 
+/// The bounds of other measures, of any wrenches and of lists know no force of a second contact, so
+/// a certificate that claims one of these is no proof.
+TEST(BracedProof, IsTheOnlyOneWithForcesOfASecondContact) {
+  Problem problem = pushing_and_turning();
+  const FormModel model(problem);
+  const Equations equations(problem, model);
+  const auto make = [&](const char* measure, Wrench wrench) {
+    return make_value_proof(problem, model, equations, measure, wrench);
+  };
+  EXPECT_NO_THROW(make("linf_polytope", Wrench::kPure));
+  EXPECT_THROW(make("linf_polytope", Wrench::kAny), std::invalid_argument);
+  EXPECT_THROW(make("l2_polytope", Wrench::kPure), std::invalid_argument);
+  EXPECT_THROW(make("ellipsoid", Wrench::kPure), std::invalid_argument);
+  problem.scenarios.wrenches = {{"one", problem.c}, {"other", -problem.c}};
+  EXPECT_THROW(make("linf_polytope", Wrench::kPure), std::invalid_argument);
+}
+
 /// No multiplier puts a posture's value above what it proves of a box about the posture.
 TEST(BracedProof, NoPostureIsAbove) {
   const Problem problem = pushing_and_turning();
