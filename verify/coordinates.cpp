@@ -47,7 +47,7 @@ bool forces_follow_from_base(const Problem& problem) {
   const Contact& contact = *problem.contact;
   const Eigen::MatrixXd& C = contact.C;
   return C.cols() == 3 && C.bottomRows(3).isZero(0) &&
-         std::abs(C.topRows<3>().determinant()) > 1e-9 &&
+         Eigen::JacobiSVD<Eigen::Matrix3d>(C.topRows<3>()).singularValues()[2] > 1e-6 &&
          (contact.w_min.array() == -kInfinity).all() && (contact.w_max.array() == kInfinity).all();
 }
 

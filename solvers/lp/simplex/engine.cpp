@@ -266,12 +266,13 @@ void Engine::tableau_row(const double* row) {
 
 /// The same over the non-zero entries of `row` only.
 void Engine::tableau_row_by_rows(const double* row) {
+  const Lines& rows = model.by_rows;
   std::fill(alpha_row.begin(), alpha_row.end(), 0.0);
   for (int i = 0; i < model.rows; ++i) {
     const double y_i = row[i];
     if (y_i == 0) continue;
-    for (int e = model.row_start[i]; e < model.row_start[i + 1]; ++e) {
-      alpha_row[model.row_index[e]] += y_i * model.row_value[e];
+    for (int e = rows.start[i]; e < rows.start[i + 1]; ++e) {
+      alpha_row[rows.index[e]] += y_i * rows.value[e];
     }
   }
   for (const int j : head) alpha_row[j] = 0;

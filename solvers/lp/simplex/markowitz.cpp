@@ -17,28 +17,6 @@ constexpr double kDrop = 1e-14;
 
 }  // namespace
 
-void Lines::clear() {
-  start.assign(1, 0);
-  index.clear();
-  value.clear();
-}
-
-void Lines::transpose(const Lines& other) {
-  const int lines = static_cast<int>(other.start.size()) - 1;
-  start.assign(lines + 1, 0);
-  index.resize(other.index.size());
-  value.resize(other.value.size());
-  for (const int i : other.index) ++start[i];
-  for (int i = 0, sum = 0; i <= lines; ++i) start[i] = sum += start[i];
-  for (int k = lines - 1; k >= 0; --k) {
-    for (int e = other.start[k]; e < other.start[k + 1]; ++e) {
-      const int to = --start[other.index[e]];
-      index[to] = k;
-      value[to] = other.value[e];
-    }
-  }
-}
-
 void Markowitz::Buckets::resize(int count) {
   for (auto* v : {&next, &previous, &bucket}) v->resize(count);
   first.resize(count + 1);

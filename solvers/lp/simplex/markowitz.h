@@ -3,21 +3,10 @@
 #include <vector>
 
 #include "solvers/lp/simplex/inverse.h"
+#include "solvers/lp/simplex/lines.h"
 #include "solvers/lp/simplex/model.h"
 
 namespace maxwrench::simplex {
-
-/// Sparse lines (rows or columns) one after the other; line k has the entries start[k] to
-/// start[k + 1].
-struct Lines {
-  std::vector<int> start, index;
-  std::vector<double> value;
-
-  void clear();
-  void end_line() { start.push_back(static_cast<int>(index.size())); }
-  /// The other direction of `other`, a matrix of as many rows as columns.
-  void transpose(const Lines& other);
-};
 
 /// Gaussian elimination of a sparse basis matrix B that chooses its pivots by Markowitz' rule with
 /// threshold pivoting: among the entries of at least a tenth of the largest in their row, it looks

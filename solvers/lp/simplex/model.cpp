@@ -182,21 +182,10 @@ void Model::apply_vector_scales() {
 }
 
 void Model::copy_by_rows() {
-  row_start.assign(rows + 1, 0);
-  const auto for_each_entry = [&](const auto& visit) {
+  by_rows.sort(rows, [this](const auto& visit) {
     for (int j = total - 1; j >= rows; --j) {
-      for (int e = start[j]; e < start[j + 1] && !fixed[j]; ++e) visit(j, index[e], value[e]);
+      for (int e = start[j]; e < start[j + 1] && !fixed[j]; ++e) visit(index[e], j, value[e]);
     }
-  };
-  int entries = 0;
-  for_each_entry([&](int, int i, double) { ++row_start[i], ++entries; });
-  row_index.resize(entries);
-  row_value.resize(entries);
-  for (int i = 0, sum = 0; i <= rows; ++i) row_start[i] = sum += row_start[i];
-  for_each_entry([&](int j, int i, double v) {
-    const int to = --row_start[i];
-    row_index[to] = j;
-    row_value[to] = v;
   });
 }
 

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "maxwrench/linear_program.h"
+#include "solvers/lp/simplex/lines.h"
 
 namespace maxwrench::simplex {
 
@@ -25,8 +26,7 @@ struct Model {
   std::vector<double> b, cost, lower, upper;
   std::vector<char> fixed;
   /// Sparse programs only: the columns that are not fixed, by rows.
-  std::vector<int> row_start, row_index;
-  std::vector<double> row_value;
+  Lines by_rows;
   std::vector<double> row_scale, col_scale;
   double rhs_scale = 1, cost_scale = 1;
   bool scaled = false;

@@ -7,7 +7,7 @@
 namespace maxwrench::simplex {
 namespace {
 
-/// In sparse programs, a larger Devex weight starts a new reference framework.
+/// A larger Devex weight starts a new reference framework.
 constexpr double kLargestWeight = 1e7;
 
 }  // namespace
@@ -192,7 +192,7 @@ void Primal::update_duals(int q, double pivot) {
     e_.weights_[j] = std::max(e_.weights_[j], ratio * ratio * reference);
   }
   // After thousands of pivots, weights grow until they overflow and hide every violation.
-  if (e_.model.sparse && reference > kLargestWeight) {
+  if (reference > kLargestWeight) {
     std::fill(e_.weights_.begin(), e_.weights_.end(), 1.0);
   }
   e_.d[q] = 0;
