@@ -17,31 +17,104 @@ struct Placed {
   Eigen::Vector3d half_axis;  ///< of a capsule
 };
 
-Placed place(const Shape& shape, const Pose<double>& link, bool oriented) {
+void place(const Shape& shape, const Pose<double>& link, bool oriented, Placed& placed) {
+  placed.pose.p.noalias() = link.R * shape.placement.p;
+  placed.pose.p += link.p;
+  if (oriented) placed.pose.R.noalias() = link.R * shape.placement.R;
+  placed.half_axis.noalias() = link.R * shape.placement.R.col(2);
+  placed.half_axis *= shape.half_length;
+}
+
+Placed place_oriented(const Shape& shape, const Pose<double>& link) {
   Placed placed;
-  placed.pose.p = link.R * shape.placement.p + link.p;
-  if (oriented) placed.pose.R = link.R * shape.placement.R;
-  placed.half_axis = shape.half_length * (link.R * shape.placement.R.col(2));
+  place(shape, link, true, placed);
   return placed;
 }
 
-bool capsules_closer(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b,
-                     double margin) {
-  const Eigen::Vector3d &p = at_a.pose.p, &q = at_b.pose.p;
-  return segment_distance(p - at_a.half_axis, p + at_a.half_axis, q - at_b.half_axis,
-                          q + at_b.half_axis) < a.radius + b.radius + margin;
+/// How a pair is tested.
+enum class Test {
+  kCapsules,    ///< a closed formula
+  kCapsuleBox,  ///< a closed formula
+  kGjk,         ///< pairs with a hull
+  kGrown        ///< all others: whether they intersect, one of them grown by the margin
+};
+
+Test test_of(const Shape& a, const Shape& b) {
+  const auto any = [&](Shape::Kind kind) { return is(a, kind) || is(b, kind); };
+  if (any(Shape::Kind::kHull)) return Test::kGjk;
+  if (!any(Shape::Kind::kCapsule) || any(Shape::Kind::kCylinder)) return Test::kGrown;
+  return any(Shape::Kind::kBox) ? Test::kCapsuleBox : Test::kCapsules;
 }
 
-/// A first test excludes capsules whose centre is too far from the box for their length to matter.
-bool capsule_box_closer(const Shape& capsule, const Placed& at, const Shape& box,
-                        const Pose<double>& box_pose, double margin) {
-  const double reach = capsule.radius + margin;
-  const Eigen::Vector3d centre = box_pose.R.transpose() * (at.pose.p - box_pose.p);
-  const double far = capsule.half_length + reach;
-  const Eigen::Vector3d outside = (centre.cwiseAbs() - box.half_sizes).cwiseMax(0.0);
-  if (outside.squaredNorm() > far * far) return false;
-  const Eigen::Vector3d half_axis = box_pose.R.transpose() * at.half_axis;
-  return segment_box_distance(centre - half_axis, centre + half_axis, box.half_sizes) < reach;
+/// Formulas take the least time, then GJK, then grown shapes.
+int cost_of(Test test) { return test == Test::kGrown ? 2 : test == Test::kGjk ? 1 : 0; }
+
+/// Two shapes on different links, with their grown shapes if these are tested. A box beside a
+/// capsule is the second shape of a test.
+struct Pair {
+  int a, b;
+  bool fixed_a, fixed_b;  ///< whether the shape is in the world
+  bool box_first;         ///< whether a is a box and b a capsule
+  bool aligned;           ///< whether the box is fixed and has the axes of the world
+  Test test;
+  double reach;   ///< shapes whose centres are farther apart than this cannot collide
+  double radius;  ///< the distance of axes, or of an axis and a box, below which they collide
+  std::shared_ptr<const GrownShape> grown_a, grown_b;
+};
+
+Pair make_pair(const std::vector<Shape>& shapes, int i, int j, double margin) {
+  const Shape& a = shapes[static_cast<std::size_t>(i)];
+  const Shape& b = shapes[static_cast<std::size_t>(j)];
+  Pair pair{};
+  pair.a = i;
+  pair.b = j;
+  pair.fixed_a = a.link <= 0;
+  pair.fixed_b = b.link <= 0;
+  pair.test = test_of(a, b);
+  pair.box_first = pair.test == Test::kCapsuleBox && is(a, Shape::Kind::kBox);
+  const Shape& box = pair.box_first ? a : b;
+  pair.aligned = box.link <= 0 && box.placement.R.isIdentity(0);
+  pair.reach = bounding_radius(a) + bounding_radius(b) + margin;
+  pair.radius = margin;
+  for (const Shape* shape : {&a, &b}) {
+    if (is(*shape, Shape::Kind::kCapsule)) pair.radius += shape->radius;
+  }
+  if (pair.test != Test::kGrown) return pair;
+  const bool grow_b = is(b, Shape::Kind::kCapsule);  // growing a capsule is exact
+  pair.grown_a = make_grown_shape(a, grow_b ? 0 : margin);
+  pair.grown_b = make_grown_shape(b, grow_b ? margin : 0);
+  return pair;
+}
+
+/// Whether a plane across the line of their centres separates capsules. With d = q - p, their axes
+/// are at least (|d|^2 - |d'h_a| - |d'h_b|) / |d| apart.
+bool separated_capsules(const Placed& a, const Placed& b, double radius) {
+  const Eigen::Vector3d d = b.pose.p - a.pose.p;
+  const double squared = d.squaredNorm();
+  const double apart = squared - std::abs(d.dot(a.half_axis)) - std::abs(d.dot(b.half_axis));
+  return apart > 0 && apart * apart > radius * radius * squared;
+}
+
+bool capsules_closer(const Placed& a, const Placed& b, double radius) {
+  const Eigen::Vector3d &p = a.pose.p, &q = b.pose.p;
+  return segment_distance(p - a.half_axis, p + a.half_axis, q - b.half_axis, q + b.half_axis) <
+         radius;
+}
+
+/// A capsule in the axes of a box at its centre.
+struct CapsuleAtBox {
+  Eigen::Vector3d centre, half_axis;
+  CapsuleAtBox(const Placed& capsule, const Pose<double>& box, bool aligned)
+      : centre(capsule.pose.p - box.p), half_axis(capsule.half_axis) {
+    if (aligned) return;
+    centre = box.R.transpose() * centre;
+    half_axis = box.R.transpose() * half_axis;
+  }
+};
+
+/// Whether the plane of a face separates a capsule from a box.
+bool separated_from_box(const CapsuleAtBox& at, const Shape& box, double radius) {
+  return (at.centre.cwiseAbs() - at.half_axis.cwiseAbs() - box.half_sizes).maxCoeff() > radius;
 }
 
 /// The closest points of a capsule's axis and a box, in the frame in which both are placed.
@@ -54,67 +127,26 @@ Between capsule_to_box(const Placed& at, const Shape& box, const Pose<double>& b
   return between;
 }
 
-/// How a pair is tested.
-enum class Test {
-  kFormula,  ///< a closed formula of capsules and boxes
-  kGjk,      ///< pairs with a hull
-  kGrown     ///< all others: whether they intersect, one of them grown by the margin
-};
-
-Test test_of(const Shape& a, const Shape& b) {
-  const auto any = [&](Shape::Kind kind) { return is(a, kind) || is(b, kind); };
-  if (any(Shape::Kind::kHull)) return Test::kGjk;
-  const bool formula = any(Shape::Kind::kCapsule) && !any(Shape::Kind::kCylinder);
-  return formula ? Test::kFormula : Test::kGrown;
-}
-
-/// Two shapes on different links, with their grown shapes if these are tested.
-struct Pair {
-  int a, b;
-  bool fixed_a, fixed_b;  ///< whether the shape is in the world
-  Test test;
-  double reach;  ///< shapes whose centres are farther apart than this cannot collide
-  std::shared_ptr<const GrownShape> grown_a, grown_b;
-};
-
-Pair make_pair(const std::vector<Shape>& shapes, int i, int j, double margin) {
-  const Shape& a = shapes[static_cast<std::size_t>(i)];
-  const Shape& b = shapes[static_cast<std::size_t>(j)];
-  const double reach = bounding_radius(a) + bounding_radius(b) + margin;
-  Pair pair{i, j, a.link <= 0, b.link <= 0, test_of(a, b), reach, nullptr, nullptr};
-  if (pair.test != Test::kGrown) return pair;
-  const bool grow_b = is(b, Shape::Kind::kCapsule);  // growing a capsule is exact
-  pair.grown_a = make_grown_shape(a, grow_b ? 0 : margin);
-  pair.grown_b = make_grown_shape(b, grow_b ? margin : 0);
-  return pair;
-}
-
-bool closer_by_formula(const Shape& a, const Placed& at_a, const Shape& b, const Placed& at_b,
-                       double margin) {
-  if (is(a, Shape::Kind::kBox)) return capsule_box_closer(b, at_b, a, at_a.pose, margin);
-  if (is(b, Shape::Kind::kBox)) return capsule_box_closer(a, at_a, b, at_b.pose, margin);
-  return capsules_closer(a, at_a, b, at_b, margin);
-}
-
 class ShapePairs : public CollisionChecker {
  public:
-  /// Cheap tests come first: formulas, then GJK, then grown shapes, each several times as
-  /// expensive. Then pairs with a large reach come first, because they are more likely to collide.
+  /// Cheap tests come first, then pairs with a large reach, because they are more likely to
+  /// collide.
   ShapePairs(Collision made_of, std::vector<Pair> pairs)
       : shapes_(std::move(made_of.shapes)),
         ignore_(std::move(made_of.ignore)),
         pairs_(std::move(pairs)),
         margin_(made_of.margin) {
     std::stable_sort(pairs_.begin(), pairs_.end(), [](const Pair& a, const Pair& b) {
-      return a.test != b.test ? a.test < b.test : a.reach > b.reach;
+      const int cost_a = cost_of(a.test), cost_b = cost_of(b.test);
+      return cost_a != cost_b ? cost_a < cost_b : a.reach > b.reach;
     });
     for (const Shape& shape : shapes_) {
       oriented_.push_back(is(shape, Shape::Kind::kBox));
-      fixed_.push_back(place(shape, {}, true));
+      fixed_.push_back(place_oriented(shape, {}));
       cores_.push_back(rounded_core(shape));
     }
     for (const Pair& pair : pairs_) {
-      if (pair.test == Test::kFormula) continue;
+      if (cost_of(pair.test) == 0) continue;
       oriented_[index(pair.a)] = oriented_[index(pair.b)] = true;
     }
   }
@@ -125,15 +157,14 @@ class ShapePairs : public CollisionChecker {
     moving.resize(shapes_.size());
     for (std::size_t i = 0; i < shapes_.size(); ++i) {
       const int link = shapes_[i].link;
-      if (link > 0) moving[i] = place(shapes_[i], links[index(link)], oriented_[i]);
+      if (link > 0) place(shapes_[i], links[index(link)], oriented_[i] != 0, moving[i]);
     }
     // A loop, since Clang does not inline the test into std::find_if.
     for (std::size_t i = 0; i < pairs_.size(); ++i) {
       const Pair& pair = pairs_[i];
       const Placed& a = (pair.fixed_a ? fixed_ : moving)[index(pair.a)];
       const Placed& b = (pair.fixed_b ? fixed_ : moving)[index(pair.b)];
-      const bool far = (a.pose.p - b.pose.p).squaredNorm() > pair.reach * pair.reach;
-      if (!far && collide(pair, a, b)) return static_cast<int>(i);
+      if (collide(pair, a, b)) return static_cast<int>(i);
     }
     return -1;
   }
@@ -143,11 +174,10 @@ class ShapePairs : public CollisionChecker {
     const Pair& pair = pairs_[index(i)];
     if (pair.test == Test::kGrown) return false;
     if (pair.test == Test::kGjk) return nearest_by_gjk(links, pair, result);
-    const bool box_first = is(shapes_[index(pair.a)], Shape::Kind::kBox);
-    const Shape& a = shapes_[index(box_first ? pair.b : pair.a)];  // a capsule
-    const Shape& b = shapes_[index(box_first ? pair.a : pair.b)];
-    const Placed at_a = place(a, links[index(a.link)], true);
-    const Placed at_b = place(b, links[index(b.link)], true);
+    const Shape& a = shapes_[index(pair.box_first ? pair.b : pair.a)];  // a capsule
+    const Shape& b = shapes_[index(pair.box_first ? pair.a : pair.b)];
+    const Placed at_a = place_oriented(a, links[index(a.link)]);
+    const Placed at_b = place_oriented(b, links[index(b.link)]);
     Between between;
     if (is(b, Shape::Kind::kBox)) {
       between = capsule_to_box(at_a, b, at_b.pose);
@@ -181,15 +211,24 @@ class ShapePairs : public CollisionChecker {
  private:
   static std::size_t index(int i) { return static_cast<std::size_t>(i); }
 
+  /// First tests exclude most pairs that do not collide.
   bool collide(const Pair& pair, const Placed& at_a, const Placed& at_b) const {
+    if ((at_a.pose.p - at_b.pose.p).squaredNorm() > pair.reach * pair.reach) return false;
+    if (pair.test == Test::kCapsules) {
+      return !separated_capsules(at_a, at_b, pair.radius) &&
+             capsules_closer(at_a, at_b, pair.radius);
+    }
     const std::size_t a = index(pair.a), b = index(pair.b);
-    switch (pair.test) {
-      case Test::kFormula:
-        return closer_by_formula(shapes_[a], at_a, shapes_[b], at_b, margin_);
-      case Test::kGjk:
-        return closer_than(cores_[a].core, at_a.pose, cores_[b].core, at_b.pose, apart(pair));
-      case Test::kGrown:
-        break;
+    if (pair.test == Test::kCapsuleBox) {
+      const Shape& box = shapes_[pair.box_first ? a : b];
+      const CapsuleAtBox at(pair.box_first ? at_b : at_a, (pair.box_first ? at_a : at_b).pose,
+                            pair.aligned);
+      return !separated_from_box(at, box, pair.radius) &&
+             segment_box_distance(at.centre - at.half_axis, at.centre + at.half_axis,
+                                  box.half_sizes) < pair.radius;
+    }
+    if (pair.test == Test::kGjk) {
+      return closer_than(cores_[a].core, at_a.pose, cores_[b].core, at_b.pose, apart(pair));
     }
     return pair.grown_a->intersects(at_a.pose, *pair.grown_b, at_b.pose);
   }
@@ -212,7 +251,7 @@ class ShapePairs : public CollisionChecker {
   std::vector<Shape> shapes_;
   std::vector<std::pair<std::string, std::string>> ignore_;
   std::vector<Placed> fixed_;   ///< the placed shapes of the base
-  std::vector<bool> oriented_;  ///< whether a shape's test needs its rotation
+  std::vector<char> oriented_;  ///< whether a shape's test needs its rotation
   std::vector<RoundedCore> cores_;
   std::vector<Pair> pairs_;
   double margin_;

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "solvers/trajectory/simd_pack.h"
+#include "lib/math/simd_pack.h"
 
 namespace maxwrench {
 

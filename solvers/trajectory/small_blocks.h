@@ -4,8 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "lib/math/simd_pack.h"
 #include "solvers/trajectory/blocks.h"
-#include "solvers/trajectory/simd_pack.h"
 
 // Algebra on the blocks of stages. Their size D is a compile-time number or Eigen::Dynamic.
 

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "lib/math/simd_pack.h"
 #include "solvers/lp/makers.h"
 #include "solvers/wrench/efforts.h"
 #include "solvers/wrench/makers.h"
@@ -15,7 +16,7 @@ constexpr double kSlopeTolerance = 1e-12;
 constexpr double kPairTolerance = 1e-9;
 
 /// The part of the ray tau_d + a x inside the set, from the largest `enter` to the least `leave` of
-/// its facet pairs. The loops have no conditional jumps that depend on the posture.
+/// its facet pairs. Four pairs at a time stay in registers.
 class Ray {
  public:
   double low = 0, high = 0;
@@ -23,26 +24,23 @@ class Ray {
   double missed_side = 0;  ///< 1 if its upper bound is violated, -1 if its lower one is
 
   void shoot(const Zonotope& set, const Eigen::VectorXd& tau, const double* a) {
-    project(set, tau, a);
-    const int pairs = set.facet_pairs();
+    const Eigen::Index pairs = set.facet_pairs();
+    if (enter_.size() != pairs) {
+      enter_.resize(pairs);
+      leave_.resize(pairs);
+    }
+    double norm = 0;
+    for (Eigen::Index i = 0; i < tau.size(); ++i) norm += a[i] * a[i];
+    flat_ = kSlopeTolerance * std::sqrt(norm);
     missed_pair = -1;
-    int parallel = 0;
-    low = -kInfinity;
-    high = kInfinity;
-    for (int j = 0; j < pairs; ++j) {
-      const bool moves = std::abs(slope_[j]) > flat_;
-      const double inverse = 1 / slope_[j];
-      const double first = (set.b_min[j] - value_[j]) * inverse;
-      const double second = (set.b_max[j] - value_[j]) * inverse;
-      enter_[j] = moves ? std::min(first, second) : -kInfinity;
-      leave_[j] = moves ? std::max(first, second) : kInfinity;
-      parallel += !moves;
-    }
-    for (int j = 0; j < pairs; ++j) {
-      low = std::max(low, enter_[j]);
-      high = std::min(high, leave_[j]);
-    }
-    if (parallel > 0) find_missed(set);
+    for_packs(pairs, [&]<int L>(Eigen::Index j) { cross<L>(set, tau, a, j); });
+    PackMax last, first;
+    for_packs(pairs, [&]<int L>(Eigen::Index j) {
+      last.add(pack<L>(&enter_[j]));
+      first.add(-pack<L>(&leave_[j]));
+    });
+    low = last.value();
+    high = -first.value();
   }
 
   int low_pair() const { return find(enter_, low); }
@@ -55,42 +53,37 @@ class Ray {
     return j;
   }
 
-  /// slope_ = N'a, value_ = N'tau.
-  void project(const Zonotope& set, const Eigen::VectorXd& tau, const double* a) {
-    const Eigen::Index pairs = set.facet_pairs();
-    if (slope_.size() != pairs) {
-      for (Eigen::VectorXd* v : {&slope_, &value_, &enter_, &leave_}) v->resize(pairs);
+  /// Where the ray enters and leaves the L pairs from j on.
+  template <int L>
+  void cross(const Zonotope& set, const Eigen::VectorXd& tau, const double* a, Eigen::Index j) {
+    SimdPack<L> slope = SimdPack<L>::Zero(), value = SimdPack<L>::Zero();  // N'a, N'tau
+    const double* row = set.N.data() + j;
+    for (Eigen::Index i = 0; i < tau.size(); ++i, row += set.N.cols()) {
+      slope += pack<L>(row) * a[i];
+      value += pack<L>(row) * tau[i];
     }
-    slope_.setZero();
-    value_.setZero();
-    double norm = 0;
-    double* const slope = slope_.data();
-    double* const value = value_.data();
-    for (Eigen::Index i = 0; i < set.N.rows(); ++i) {
-      const double* const row = set.N.data() + i * pairs;
-      const double a_i = a[i];
-      const double tau_i = tau[i];
-      norm += a_i * a_i;
-      for (Eigen::Index j = 0; j < pairs; ++j) {
-        slope[j] += row[j] * a_i;
-        value[j] += row[j] * tau_i;
-      }
-    }
-    flat_ = kSlopeTolerance * std::sqrt(norm);
-  }
-
-  void find_missed(const Zonotope& set) {
-    for (int j = 0; j < set.facet_pairs(); ++j) {
-      if (std::abs(slope_[j]) > flat_) continue;
-      const double slack = kPairTolerance * (1 + std::abs(value_[j]));
-      const bool below = set.b_min[j] - value_[j] > slack;
-      if (!below && set.b_max[j] - value_[j] >= -slack) continue;
-      missed_pair = j;
-      missed_side = below ? -1 : 1;
+    const SimdPack<L> inverse = 1 / slope;
+    const SimdPack<L> first = (pack<L>(&set.b_min[j]) - value) * inverse;
+    const SimdPack<L> second = (pack<L>(&set.b_max[j]) - value) * inverse;
+    pack<L>(&enter_[j]) = first.min(second);
+    pack<L>(&leave_[j]) = first.max(second);
+    for (Eigen::Index k = 0; k < L; ++k) {
+      if (!(std::abs(slope[k]) > flat_)) stay_beside(set, value[k], j + k);
     }
   }
 
-  Eigen::VectorXd slope_, value_, enter_, leave_;
+  /// The ray is parallel to a pair.
+  void stay_beside(const Zonotope& set, double value, Eigen::Index pair) {
+    enter_[pair] = -kInfinity;
+    leave_[pair] = kInfinity;
+    const double slack = kPairTolerance * (1 + std::abs(value));
+    const bool below = set.b_min[pair] - value > slack;
+    if (!below && set.b_max[pair] - value >= -slack) return;
+    missed_pair = static_cast<int>(pair);
+    missed_side = below ? -1 : 1;
+  }
+
+  Eigen::VectorXd enter_, leave_;
   double flat_ = 0;
 };
 
