@@ -214,7 +214,7 @@ std::string certificate_text(const ProofCertificate& proof) {
   raw.words(proof.problem);
   raw.words(proof.measure);
   raw.whole(proof.wrench == Wrench::kAny ? 1 : 0, 1);
-  raw.whole(proof.collision ? 1 : 0, 1);
+  raw.whole((proof.collision ? 1 : 0) + (proof.without_yaw_joint ? 2 : 0), 1);
   raw.whole(proof.digest, 8);
   for (const double x : {proof.bound, proof.gap, proof.value}) raw.real(x);
   for (const Eigen::VectorXd& v :
@@ -238,7 +238,9 @@ ProofCertificate read_certificate(const std::string& file) {
   proof.problem = from.words();
   proof.measure = from.words();
   proof.wrench = from.whole(1) == 1 ? Wrench::kAny : Wrench::kPure;
-  proof.collision = from.whole(1) == 1;
+  const std::uint64_t how = from.whole(1);
+  proof.collision = (how & 1) != 0;
+  proof.without_yaw_joint = (how & 2) != 0;
   proof.digest = from.whole(8);
   for (double* x : {&proof.bound, &proof.gap, &proof.value}) *x = from.real();
   proof.x = from.vector();

@@ -46,7 +46,9 @@ struct ProofCertificate {
   std::string problem;  ///< name of the problem on the command line
   std::string measure;
   Wrench wrench = Wrench::kPure;
-  bool collision = true;     ///< postures that collide are excluded
+  bool collision = true;  ///< postures that collide are excluded
+  /// The boxes leave out the joint about the base's yaw, see `PostureCoordinates::left_out`.
+  bool without_yaw_joint = false;
   std::uint64_t digest = 0;  ///< of the robot and the task
   double bound = 0;          ///< [N or N m] no posture exceeds it
   double gap = 0;            ///< bound <= value + gap |value|

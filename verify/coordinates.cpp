@@ -1,11 +1,16 @@
 #include "verify/coordinates.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <stdexcept>
 
 namespace maxwrench {
 namespace {
+
+/// The axis of a joint about the yaw may be off by this share, a rounding error of rotations. The
+/// equations allow for more.
+constexpr double kUpright = 1e-15;
 
 void throw_unless_supported(bool supports, const Problem& problem) {
   if (supports) return;
@@ -51,8 +56,32 @@ bool forces_follow_from_base(const Problem& problem) {
          (contact.w_min.array() == -kInfinity).all() && (contact.w_max.array() == kInfinity).all();
 }
 
-PostureCoordinates::PostureCoordinates(const Problem& problem)
-    : of_joint(problem.robot.joints.size(), -1), chain(joints_between(problem)) {
+int joint_about_yaw(const Problem& problem) {
+  const Robot& robot = problem.robot;
+  const std::vector<int>& axes = robot.base_axes;
+  for (const int axis : {0, 1, 5}) {
+    if (place_of(axes, axis) == static_cast<int>(axes.size())) return -1;
+  }
+  const std::vector<int> chain = joints_between(problem);
+  if (axes.size() == 6 || problem.dependent.empty() || problem.contact || chain.empty()) return -1;
+  const int first = chain.front();
+  if (place_of(problem.redundant, first) == static_cast<int>(problem.redundant.size())) return -1;
+  const Joint& joint = robot.joints[static_cast<std::size_t>(first)];
+  const Eigen::Vector3d axis = joint.placement.R * joint.axis;
+  const bool upright = std::abs(axis[0]) <= kUpright && std::abs(axis[1]) <= kUpright;
+  return joint.type == JointType::kRevolute && upright ? first : -1;
+}
+
+bool is_between(const Robot& robot, int joint, int a, int b) {
+  const auto carries = [&](int link) {
+    while (link > joint + 1) link = robot.joints[static_cast<std::size_t>(link - 1)].parent;
+    return link == joint + 1;
+  };
+  return carries(a) != carries(b);
+}
+
+PostureCoordinates::PostureCoordinates(const Problem& problem, int without)
+    : of_joint(problem.robot.joints.size(), -1), chain(joints_between(problem)), left_out(without) {
   throw_unless_supported(
       !problem.motion && (problem.contact_columns() == 0 || forces_follow_from_base(problem)),
       problem);
@@ -75,6 +104,7 @@ PostureCoordinates::PostureCoordinates(const Problem& problem)
   }
   first = count();
   for (const int joint : chain) {
+    if (joint == left_out) continue;
     const int at = place_of(problem.redundant, joint);
     if (at < given) {
       add_joint(joint, at);
@@ -89,7 +119,7 @@ PostureCoordinates::PostureCoordinates(const Problem& problem)
   regrasp = count();
   const bool around = problem.contact && problem.contact->surface == Surface::kCircle;
   while (at < own) variables.push_back({around, at++, 0, 0});
-  throw_unless_supported(count() == next, problem);
+  throw_unless_supported(count() + (left_out < 0 ? 0 : 1) == next, problem);
   throw_on_moving_gears(problem, of_joint);
   for (Variable& variable : variables) {
     if (variable.coordinate >= own) continue;

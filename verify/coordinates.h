@@ -24,10 +24,11 @@ struct PostureCoordinates {
     double lower = 0, upper = 0;
   };
 
+  /// `without`: a joint of the chain that is no variable, but rests; -1: none.
   /// Throws std::invalid_argument, in one line, for tasks in time, for a second contact with other
   /// forces than those that follow from the base, and for joints of theta_r that do not move the
   /// end effector.
-  explicit PostureCoordinates(const Problem& problem);
+  explicit PostureCoordinates(const Problem& problem, int without = -1);
 
   std::vector<Variable> variables;
   std::vector<int> of_joint;  ///< the variable of each joint of the robot; -1 if it rests
@@ -35,10 +36,22 @@ struct PostureCoordinates {
   int yaw = 0;                ///< first index of each stretch of variables
   int first = 0, free = 0, regrasp = 0;
   bool base_is_dependent = false;  ///< its pose has a closed form; else equations
+  int left_out = -1;               ///< `without`
 
   int count() const { return static_cast<int>(variables.size()); }
   bool has_yaw() const { return first > yaw; }
 };
+
+/// The first joint of the chain, if it is of theta_r and turns about the yaw of a base that moves
+/// along x, y and yaw, has no closed form and is not loaded by a second contact; else -1. Such a
+/// base can turn in place of the joint. For any posture, the one with this joint at rest, another
+/// yaw and another place of the base has the same end effector and the same links from this joint
+/// on, so their joints have the same loads. The rows of the base and of other branches may differ,
+/// and so may collisions between these links and others.
+int joint_about_yaw(const Problem& problem);
+
+/// Whether a joint is between two links, so that it moves one in the axes of the other.
+bool is_between(const Robot& robot, int joint, int a, int b);
 
 /// The position of a joint that is not a coordinate.
 double rest_of(const Problem& problem, std::size_t joint);

@@ -20,11 +20,11 @@ Wide exact_product(double a, double b) { return Wide(a) * Wide(b); }
 
 }  // namespace
 
-FormModel::FormModel(const Problem& problem) : FormModel(problem, nullptr) {}
+FormModel::FormModel(const Problem& problem) : FormModel(problem, nullptr, -1) {}
 
-FormModel::FormModel(const Problem& problem, const std::vector<LinkLoad>* loads)
+FormModel::FormModel(const Problem& problem, const std::vector<LinkLoad>* loads, int without)
     : problem_(problem),
-      coordinates_(problem),
+      coordinates_(problem, without),
       shape_(shape_of(coordinates_)),
       on_chain_(problem.robot.links.size(), 0),
       pose_R_(matrix(problem.pose.R)),

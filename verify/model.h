@@ -19,6 +19,8 @@ class FormModel {
  public:
   /// Keeps a reference to the problem. Throws std::invalid_argument, in one line, for other tasks.
   explicit FormModel(const Problem& problem);
+  /// The same with a joint of the chain at rest, see `PostureCoordinates`.
+  FormModel(const Problem& problem, int without) : FormModel(problem, nullptr, without) {}
   explicit FormModel(const Problem&&) = delete;
   /// The same robot with these wet masses in place of its own.
   FormModel(const Problem& problem, const std::vector<LinkLoad>& loads)
@@ -79,7 +81,7 @@ class FormModel {
   void set_pose();
   std::array<FormVector, 2> to_base(int link, FormVector along, FormVector about) const;
   std::array<FormVector, 2> from_end_effector(const Vector6d& h) const;
-  FormModel(const Problem& problem, const std::vector<LinkLoad>* loads);
+  FormModel(const Problem& problem, const std::vector<LinkLoad>* loads, int without = -1);
   void weigh_links(const std::vector<LinkLoad>* loads);
   void weigh();
   void weigh_from_base();

@@ -63,6 +63,7 @@ class PolytopeProof final : public PureProof {
   int own_width() const override { return problem_.robot.actuation.dimension(); }
   double reach(const double* lambda, std::vector<Narrow>& factors) override {
     const Zonotope& set = problem_.robot.actuation;
+    if (!rows_are_known(lambda)) return kInfinity;
     Narrow sum;
     for (Eigen::Index k = 0; k < set.actuators(); ++k) {
       Narrow slope;
@@ -73,6 +74,19 @@ class PolytopeProof final : public PureProof {
     }
     for (std::size_t i = 0; i < factors.size(); ++i) factors[i] = lambda[i];
     return sum.high;
+  }
+
+  /// Without a joint about the yaw, only the rows of the chain's joints are those of the posture.
+  bool rows_are_known(const double* lambda) const {
+    const PostureCoordinates& coordinates = model_.coordinates();
+    if (coordinates.left_out < 0) return true;
+    const auto axes = static_cast<int>(problem_.robot.base_axes.size());
+    for (int row = 0; row < static_cast<int>(rows_->tau.size()); ++row) {
+      const auto& chain = coordinates.chain;
+      const bool of_chain = std::find(chain.begin(), chain.end(), row - axes) != chain.end();
+      if (!of_chain && lambda[row] != 0) return false;
+    }
+    return true;
   }
 };
 

@@ -218,8 +218,16 @@ bool holds_all(const PostureCoordinates& coordinates, const ProofCertificate& pr
       });
 }
 
+std::string reject_left_out(const Problem& problem, const ProofCertificate& proof) {
+  if (!proof.without_yaw_joint) return "";
+  const bool single = proof.measure == "linf_polytope" && proof.wrench == Wrench::kPure &&
+                      problem.scenarios.empty();
+  if (single && !problem.motion && joint_about_yaw(problem) >= 0) return "";
+  return "it leaves out a joint that the base cannot replace";
+}
+
 /// Checks the claims that do not depend on the boxes.
-std::string reject_claims(const Problem& problem, const FormModel& model,
+std::string reject_claims(const Problem& problem, const FormModel& boxed, const FormModel& model,
                           const Equations& equations, const ProofCertificate& proof) {
   if (proof.digest != digest(problem)) return "it is for another robot or task";
   if (proof.tree.of_list != !problem.scenarios.empty()) return "it is for another kind of task";
@@ -229,7 +237,7 @@ std::string reject_claims(const Problem& problem, const FormModel& model,
   const int n = model.coordinates().count();
   if (proof.lower.size() != n || proof.upper.size() != n) return "its box has other joints";
   if (!proof.lower.allFinite() || !proof.upper.allFinite() ||
-      !holds_all(model.coordinates(), proof)) {
+      !holds_all(boxed.coordinates(), proof)) {
     return "its box does not contain the limits";
   }
   if (!((proof.upper - proof.lower).array() <= kWidest).all()) return "its box is too wide";
@@ -263,12 +271,15 @@ std::vector<OpenBox> first_boxes(TreeWalk& walk, OpenBox root) {
 }  // namespace
 
 Verification verify(const Problem& problem, const ProofCertificate& proof, int threads) {
-  const FormModel model(problem);
+  Verification result;
+  result.rejection = reject_left_out(problem, proof);
+  if (!result.rejection.empty()) return result;
+  const FormModel posture(problem);  // with all coordinates
+  const FormModel model(problem, proof.without_yaw_joint ? joint_about_yaw(problem) : -1);
   const Equations equations(problem, model);
   const auto value = make_value_proof(problem, model, equations, proof.measure, proof.wrench);
-  Verification result;
   result.ceiling = value->ceiling();
-  result.rejection = reject_claims(problem, model, equations, proof);
+  result.rejection = reject_claims(problem, model, posture, Equations(problem, posture), proof);
   if (result.rejection.empty()) {
     result.rejection = reject_shape(proof.tree, proof.lower.size(), *value, equations.count());
   }

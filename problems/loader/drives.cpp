@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "lib/robot/brakes.h"
 #include "problems/make/bad_value.h"
 
 namespace maxwrench {
@@ -149,14 +150,14 @@ void read_limits(const Block& root, const std::string& chosen, Robot& robot) {
 }
 
 void add_brakes(Robot& robot) {
-  constexpr double kForce = 1e5, kArm = 1;  // N, m
+  constexpr double kArm = 1;  // m
   const auto add = [&](const std::string& name, const Eigen::Vector3d& position,
                        const Eigen::Vector3d& direction) {
     robot.thrusters.push_back({.name = "brake_" + name,
                                .position = position,
                                .direction = direction,
-                               .force_min = -kForce,
-                               .force_max = kForce});
+                               .force_min = -kBrakeForce,
+                               .force_max = kBrakeForce});
   };
   for (const int axis : robot.base_axes) {
     const std::string name = kTwistAxes[static_cast<std::size_t>(axis)];

@@ -4,6 +4,7 @@
 
 #include "lib/math/rotated.h"
 #include "maxwrench/version.h"
+#include "solvers/certify/bound/loop_posture.h"
 #include "verify/equations.h"
 #include "verify/model.h"
 
@@ -175,6 +176,8 @@ ProofCertificate ProofRecorder::certificate(const Answer& answer, double bound, 
   ProofCertificate proof = claim_of(answer);
   proof.bound = bound;
   proof.gap = std::max(gap, (proof.bound - proof.value) / std::abs(proof.value));
+  proof.without_yaw_joint =
+      left_out_coordinate(*answer.task, proof.measure, proof.wrench).has_value();
   proof.lower = lower_;
   proof.upper = upper_;
   proof.tree = tree(*answer.task);

@@ -17,11 +17,11 @@
 namespace maxwrench {
 
 inline const std::vector<const char*> kLoopProblems = {
-    "mobile/push",        "fixed/push",      "mobile/push_any_height",
-    "dual_arm/bar_alone", "random, fixed",   "random, x",
-    "random, yaw",        "random, x y yaw", "random, x y z yaw",
-    "random, free tool",  "planar/two_arms", "dual_arm/bar_wall",
-    "dual_arm/two_arms"};
+    "mobile/push",        "fixed/push",       "mobile/push_any_height",
+    "dual_arm/bar_alone", "random, fixed",    "random, x",
+    "random, yaw",        "random, x y yaw",  "random, x y z yaw",
+    "random, free tool",  "random, parked",   "planar/two_arms",
+    "dual_arm/bar_wall",  "dual_arm/two_arms"};
 
 /// The number of the last ones, whose second contact bears forces.
 constexpr std::ptrdiff_t kLoopProblemsWithForces = 3;
@@ -29,11 +29,16 @@ constexpr std::ptrdiff_t kLoopProblemsWithForces = 3;
 /// A shipped problem, or a random one with these free axes of the base.
 Problem loop_problem(const std::string& name);
 
+/// An arm of five joints on a parked base that moves along x, y and yaw. The first joint turns
+/// about the base's yaw axis, downwards; it and the last one are redundant.
+Problem parked_problem(Random& random);
+
 /// The name of a parameter of kLoopProblems as the name of a test.
 std::string loop_name(const testing::TestParamInfo<const char*>& of);
 
 /// The coordinates x of a posture, with w of the second contact at the value t. Angles are shifted
-/// by whole turns into the limits of x where possible.
+/// by whole turns into the limits of x where possible. If the coordinate about the yaw is left out,
+/// the yaw is that of the base after it has turned in place of this joint.
 Eigen::VectorXd loop_coordinates(const Problem& problem, const LoopCoordinates& coordinates,
                                  const Posture& posture, const Eigen::VectorXd& w, double t);
 

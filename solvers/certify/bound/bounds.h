@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <optional>
 
 #include "maxwrench/bound.h"
 #include "maxwrench/problem.h"
@@ -38,7 +39,10 @@ inline constexpr double kCeilingMargin = 1;
 ///
 /// The convex set of linf_polytope is {B u}. For l2_polytope the program is the same with (I, B^+
 /// a, B^+ tau). The ellipsoid is |W_u B^+ tau| <= 1, with lambda from the centre of the box.
-std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string& measure);
+/// `left_out`, only of linf_polytope: the coordinate about the yaw of a parked base, or none. The
+/// rows of the base and of joints outside the chain then have lambda = 0.
+std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string& measure,
+                                       std::optional<int> left_out = std::nullopt);
 
 /// For W with as many columns as the base has free axes. The forces u of the thrusters on the base
 /// then determine h by w = (J_b'W)^-1 (B_b u - tau_b). So beta = o_0 + o'u, and the joints exert
@@ -114,7 +118,9 @@ double braced_ceiling(const Problem& problem);
 /// Returns -infinity for boxes throughout which two bodies collide, else `high`. For each pair of
 /// bodies, a point of one body's core moves along a multi-affine path in the axes of the other's
 /// link. The other's core, with its reach, is convex: if it contains all control points of the
-/// path, it contains the point. Null if the robot has no cores.
-std::unique_ptr<Bound> make_collision_bound(const Problem& problem);
+/// path, it contains the point. Null if the robot has no cores. Pairs that the coordinate
+/// `left_out` moves are left out, too.
+std::unique_ptr<Bound> make_collision_bound(const Problem& problem,
+                                            std::optional<int> left_out = std::nullopt);
 
 }  // namespace maxwrench

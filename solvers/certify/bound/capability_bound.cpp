@@ -3,6 +3,7 @@
 #include "lib/robot/gears.h"
 #include "maxwrench/problem.h"
 #include "solvers/certify/bound/bounds.h"
+#include "solvers/certify/bound/loop_posture.h"
 
 namespace maxwrench {
 namespace {
@@ -41,7 +42,7 @@ class CapabilityBound final : public Bound {
 };
 
 std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& measure,
-                                     Wrench wrench) {
+                                     Wrench wrench, std::optional<int> left_out) {
   if (!problem.scenarios.empty() && measure != "linf_polytope") {
     throw std::invalid_argument("measure: got '" + measure +
                                 "', expected linf_polytope for a list of scenarios");
@@ -65,7 +66,7 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
                                 "with forces of a second contact");
   }
   if (!problem.scenarios.empty()) return make_list_bound(problem, wrench);
-  return any ? make_any_wrench_bound(problem) : make_pure_bound(problem, measure);
+  return any ? make_any_wrench_bound(problem) : make_pure_bound(problem, measure, left_out);
 }
 
 }  // namespace
@@ -81,8 +82,17 @@ std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::
     throw std::invalid_argument(problem.name + ": got a chain that moves '" + joint.name +
                                 "' by a gear, expected none for a proof");
   }
-  return std::make_unique<CapabilityBound>(measure_bound(problem, measure, wrench),
-                                           make_collision_bound(problem));
+  const std::optional<int> left_out = left_out_coordinate(problem, measure, wrench);
+  return std::make_unique<CapabilityBound>(measure_bound(problem, measure, wrench, left_out),
+                                           make_collision_bound(problem, left_out));
+}
+
+std::optional<int> left_out_coordinate(const Problem& problem, const std::string& measure,
+                                       Wrench wrench) {
+  if (measure != "linf_polytope" || wrench == Wrench::kAny || !problem.scenarios.empty()) {
+    return std::nullopt;
+  }
+  return coordinate_about_yaw(problem);
 }
 
 }  // namespace maxwrench

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -31,6 +32,12 @@ Coordinates between_links(const Problem& problem, int a, int b) {
                          JointType::kRevolute);
   }
   return some;
+}
+
+/// Whether a coordinate moves one of the boxes relative to the other.
+bool moves(const Problem& problem, int coordinate, const InscribedBoxPair& boxes) {
+  const std::vector<int> some = between_links(problem, boxes.a.link, boxes.b.link).index;
+  return std::find(some.begin(), some.end(), coordinate) != some.end();
 }
 
 /// The rows of (R, p) of link a in the axes of link b, 12, column by column.
@@ -222,12 +229,13 @@ class CollisionBound final : public Bound {
 
 }  // namespace
 
-std::unique_ptr<Bound> make_collision_bound(const Problem& problem) {
+std::unique_ptr<Bound> make_collision_bound(const Problem& problem, std::optional<int> left_out) {
   const CollisionChecker* const checker = problem.robot.collision.get();
   auto movers = std::make_shared<Movers>();
   for (int pair = 0; checker != nullptr && pair < checker->pairs(); ++pair) {
     InscribedBoxPair inscribed_boxes;
     if (!checker->inscribed_boxes(pair, inscribed_boxes)) continue;
+    if (left_out && moves(problem, *left_out, inscribed_boxes)) continue;
     const bool a = is_segment(inscribed_boxes.a), b = is_segment(inscribed_boxes.b);
     if (a || !b)
       movers->push_back(

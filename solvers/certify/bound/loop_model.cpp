@@ -17,8 +17,8 @@ Coordinates part_of_chain(const Coordinates& chain, int from, int to) {
 
 }  // namespace
 
-LoopModel::LoopModel(const Problem& problem, ContactForces forces)
-    : coordinates(problem, forces), n(problem.robot.velocities()), problem_(problem) {
+LoopModel::LoopModel(const Problem& problem, ContactForces forces, std::optional<int> left_out)
+    : coordinates(problem, forces, left_out), n(problem.robot.velocities()), problem_(problem) {
   require_few_control_points(problem.name, coordinates.chain);
   size = coordinates.chain.points();
   tau = a = Eigen::VectorXd::Zero(n);
@@ -66,10 +66,16 @@ void LoopModel::add_loads(LoopPosture& posture) {
     if (slides && levers) continue;  // they determine the contact's force
     if (slides && !coordinates.base_is_dependent) {
       pushed.push_back(i);
-    } else if (std::find(coordinates.joints.begin(), coordinates.joints.end(), i - axes) ==
-               coordinates.joints.end()) {
+    } else if (coordinates.resting != i - axes &&
+               std::find(coordinates.joints.begin(), coordinates.joints.end(), i - axes) ==
+                   coordinates.joints.end()) {
       others.push_back(i);
     }
+  }
+  if (coordinates.resting) {
+    dropped = pushed;
+    dropped.insert(dropped.end(), others.begin(), others.end());
+    return;
   }
   const auto add = [&](int from, int to, const std::vector<int>& rows) {
     if (rows.empty()) return;
@@ -104,16 +110,21 @@ void LoopModel::add_loads(LoopPosture& posture) {
 
 /// The row of a joint of the chain depends on the coordinates behind it.
 void LoopModel::add_joints(LoopPosture& posture) {
-  const auto axes = static_cast<int>(problem_.robot.base_axes.size());
-  for (int i = coordinates.first.from; i < coordinates.first.to; ++i) {
-    const int row = axes + coordinates.joints[static_cast<std::size_t>(i - coordinates.first.from)];
-    add_part(Kind::kLoads, i + 1, coordinates.free.to, {row}, [&](const ExtendedVector& x) {
-      posture.set(x);
-      ExtendedVector values(2);
-      values << posture.loads()[row], posture.loads()[n + row];
-      return values;
-    });
+  const LoopCoordinates::Stretch& first = coordinates.first;
+  if (coordinates.resting) add_joint(posture, *coordinates.resting, first.from);
+  for (int i = first.from; i < first.to; ++i) {
+    add_joint(posture, coordinates.joints[static_cast<std::size_t>(i - first.from)], i + 1);
   }
+}
+
+void LoopModel::add_joint(LoopPosture& posture, int joint, int from) {
+  const int row = static_cast<int>(problem_.robot.base_axes.size()) + joint;
+  add_part(Kind::kLoads, from, coordinates.free.to, {row}, [&](const ExtendedVector& x) {
+    posture.set(x);
+    ExtendedVector values(2);
+    values << posture.loads()[row], posture.loads()[n + row];
+    return values;
+  });
 }
 
 void LoopModel::leave_equations() {

@@ -31,8 +31,10 @@ struct LoopPart {
 /// B u = tau + t a + A B_f u.
 struct LoopModel {
   /// Keeps a reference to the problem. Throws std::invalid_argument with one line if there are too
-  /// many control points.
-  explicit LoopModel(const Problem& problem, ContactForces forces = ContactForces::kShares);
+  /// many control points. `left_out`: the coordinate about the yaw, or none. Without it only the
+  /// joints of the chain have rows: those of the base depend on its own yaw.
+  explicit LoopModel(const Problem& problem, ContactForces forces = ContactForces::kShares,
+                     std::optional<int> left_out = std::nullopt);
 
   /// Takes the equations out.
   void leave_equations();
@@ -40,6 +42,7 @@ struct LoopModel {
   LoopCoordinates coordinates;
   std::vector<LoopPart> parts;
   std::optional<MultiAffine> levers;  ///< A column by column, along the second arm; `kOfBase`
+  std::vector<int> dropped;           ///< rows of tau without parts
   Eigen::Index n = 0;                 ///< rows of tau_d
   Eigen::Index m = 0;                 ///< equations
   Eigen::Index size = 0;              ///< control points
@@ -51,6 +54,7 @@ struct LoopModel {
   void add_loads(LoopPosture& posture);
   void add_levers(LoopPosture& posture);
   void add_joints(LoopPosture& posture);
+  void add_joint(LoopPosture& posture, int joint, int from);
   void add_equations(LoopPosture& posture);
   void add_part(Kind kind, int from, int to, const std::vector<int>& rows,
                 const MultiAffine::Sample& sample);

@@ -8,6 +8,7 @@
 #include "lib/math/decompositions.h"
 #include "lib/math/rotated.h"
 #include "lib/posture/free_pose.h"
+#include "lib/robot/brakes.h"
 #include "lib/robot/chain.h"
 #include "solvers/certify/bound/exact_posture.h"
 
@@ -93,7 +94,27 @@ bool base_determines_forces(const Problem& problem) {
          contact.w_max.array().minCoeff() == kInfinity;
 }
 
-LoopCoordinates::LoopCoordinates(const Problem& problem, ContactForces forces)
+std::optional<int> coordinate_about_yaw(const Problem& problem) {
+  constexpr double kUpright = 1e-15;  // as exact as a rotation of rounded numbers
+  const Robot& robot = problem.robot;
+  for (const int axis : {0, 1, 5}) {
+    if (!is_free_axis(robot, axis)) return std::nullopt;
+  }
+  if (problem.dependent.empty() || problem.contact || !is_parked(robot)) return std::nullopt;
+  const std::vector<int> chain = chain_to(robot, problem.end_effector);
+  if (chain.empty()) return std::nullopt;
+  const Joint& joint = robot.joints[static_cast<std::size_t>(chain.front())];
+  const Eigen::Vector3d axis = joint.placement.R * joint.axis;
+  if (joint.type != JointType::kRevolute || !(axis.head<2>().norm() <= kUpright)) {
+    return std::nullopt;
+  }
+  const int at = place_in(problem.redundant, chain.front());
+  if (at == static_cast<int>(problem.redundant.size())) return std::nullopt;
+  return at;
+}
+
+LoopCoordinates::LoopCoordinates(const Problem& problem, ContactForces forces,
+                                 std::optional<int> left_out)
     : base_is_dependent(problem.robot.base_axes.size() == 6 ||
                         (problem.dependent.empty() && !problem.contact)) {
   const auto own = static_cast<int>(problem.redundancy());
@@ -107,6 +128,10 @@ LoopCoordinates::LoopCoordinates(const Problem& problem, ContactForces forces)
   }
   yaw = {second.to, chain.count()};
   joints = chain_to(problem.robot, problem.end_effector);
+  if (left_out) {
+    resting = joints.front();
+    joints.erase(joints.begin());
+  }
   for (const int joint : joints) {
     const int at = place_in(problem.redundant, joint);
     const bool given = at < static_cast<int>(problem.redundant.size());
@@ -125,6 +150,10 @@ LoopCoordinates::LoopCoordinates(const Problem& problem, ContactForces forces)
   if (problem.contact && forces == ContactForces::kShares) limit_forces(problem);
   for (Eigen::Index k = 0; k < w_min.size(); ++k) add(next++, false, 0, 1);
   shares = {regrasp.to, chain.count()};
+  if (left_out) {
+    lower[*left_out] = upper[*left_out] =
+        (problem.theta_r_min[*left_out] + problem.theta_r_max[*left_out]) / 2;
+  }
 }
 
 void LoopCoordinates::add(int at, bool turns, double low, double high) {
@@ -216,10 +245,12 @@ void LoopPosture::set_loads(const Matrix3<Extended>& from_tip) {
   loads_.tail(n) = J_.transpose() * c;
   kinematics_.gravity_and_buoyancy(from_tip, tau_);
   kinematics_.jacobian(tip_, from_tip, J_);
-  for (const int joint : coordinates_.joints) {
+  const auto load = [&](int joint) {
     loads_[axes + joint] = tau_[axes + joint];
     loads_[n + axes + joint] = J_.col(axes + joint).dot(c);
-  }
+  };
+  if (coordinates_.resting) load(*coordinates_.resting);
+  for (const int joint : coordinates_.joints) load(joint);
 }
 
 void LoopPosture::set_contact(const ExtendedVector& x) {

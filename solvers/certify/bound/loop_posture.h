@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "lib/robot/kinematics.h"
 #include "maxwrench/problem.h"
 #include "solvers/certify/bound/multi_affine.h"
@@ -19,6 +21,15 @@ inline constexpr std::size_t kMostPatternThrusters = 12;
 /// moves along all six axes, by few thrusters. The base's linear axes then determine the forces.
 bool base_determines_forces(const Problem& problem);
 
+/// The index in theta_r of the first joint of the chain, if it turns about the yaw of a parked base
+/// that also moves along x and y; else none. The base can turn in place of this joint: x and y make
+/// up for the shift, and from this joint on the chain is where it was. So no value depends on it,
+/// apart from collisions with the base. Proofs leave it out.
+std::optional<int> coordinate_about_yaw(const Problem& problem);
+/// The same for `make_capability_bound`, which leaves it out for a single wrench and linf_polytope.
+std::optional<int> left_out_coordinate(const Problem& problem, const std::string& measure,
+                                       Wrench wrench);
+
 /// All coordinates x of a posture:
 ///
 ///     x = [theta_r; dependent joints; joints of a second arm; yaw; shares of contact forces].
@@ -31,6 +42,9 @@ bool base_determines_forces(const Problem& problem);
 /// with t the value, at least zero if v is not zero. A component that has no limit of its own is
 /// bounded by what the base's linear axes can bear in addition to t c.
 ///
+/// The coordinate about the yaw can be left out. Its joint then rests in the chain, its limits are
+/// one number, and the yaw stands for the sum of both.
+///
 /// The chain has this order: the second arm's joints; from the world to the end effector, the yaw,
 /// the joints from the base outward and the free coordinates of the pose; the regrasp coordinates;
 /// the shares. Angles are within one turn.
@@ -41,12 +55,14 @@ struct LoopCoordinates {
   };
 
   /// Throws std::invalid_argument with one line if shares have no limits. With `kOfBase` there are
-  /// no shares.
-  explicit LoopCoordinates(const Problem& problem, ContactForces forces = ContactForces::kShares);
+  /// no shares. `left_out`: the coordinate about the yaw.
+  explicit LoopCoordinates(const Problem& problem, ContactForces forces = ContactForces::kShares,
+                           std::optional<int> left_out = std::nullopt);
 
   Coordinates chain;  ///< as indices into x
   Stretch second, yaw, first, free, regrasp, shares;
   std::vector<int> joints;         ///< of the robot, in `first`
+  std::optional<int> resting;      ///< the joint that is left out, which comes before these
   bool base_is_dependent = false;  ///< its pose follows from the joints in closed form
   Eigen::VectorXd lower, upper;    ///< limits of x
   Eigen::VectorXd w_min, w_max;    ///< of the second contact's w, finite

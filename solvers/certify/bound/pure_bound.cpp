@@ -170,6 +170,7 @@ class PureBound final : public Bound {
       const double least =
           program_.solve(least_t - kBelow * std::abs(least_t), kMostSteps, local_, solved_);
       if (!ellipsoid_) lambda_ = solved_.head(rows());
+      for (const int row : model_->dropped) lambda_[row] = 0;
       nu_.noalias() =
           linear_.M().topRows(rows_used_).transpose() * solved_.segment(free_rows(), rows_used_);
       take(value(low, high), proof);
@@ -272,7 +273,8 @@ class PureBound final : public Bound {
 
 }  // namespace
 
-std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string& measure) {
+std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string& measure,
+                                       std::optional<int> left_out) {
   PureMeasure kind = PureMeasure::kPolytope;
   Eigen::MatrixXd K;
   if (measure == "l2_polytope") {
@@ -287,7 +289,8 @@ std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string
   const auto thrusters = static_cast<Eigen::Index>(problem.robot.thrusters.size());
   const bool of_base = kind == PureMeasure::kPolytope && base_determines_forces(problem);
   auto model = std::make_shared<LoopModel>(
-      problem, of_base ? ContactForces::kOfBase : ContactForces::kShares);
+      problem, of_base ? ContactForces::kOfBase : ContactForces::kShares, left_out);
+  for (const int row : model->dropped) set->B.row(row).setZero();
   std::optional<ThrustPoints> thrust;
   if (of_base) {
     thrust.emplace(*model, *set, thrusters);

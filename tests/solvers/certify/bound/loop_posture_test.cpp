@@ -17,6 +17,9 @@ TEST_P(LoopPostureOf, IsThePosture) {
   PostureSource source(problem, "linf_polytope");
   LoopPosture loop(problem, source.coordinates());
   const Eigen::Index n = problem.robot.velocities();
+  // A base that turns in place of a joint has loads along its own axes.
+  const auto base = static_cast<Eigen::Index>(problem.robot.base_axes.size());
+  const Eigen::Index known = source.coordinates().resting ? n - base : n;
   Random random(1);
   int seen = 0;
   for (int sample = 0; sample < 400; ++sample) {
@@ -34,8 +37,8 @@ TEST_P(LoopPostureOf, IsThePosture) {
       expected += program.JtW.rightCols(l) * source.capability().w.tail(l);
     }
     const double size = 1 + expected.cwiseAbs().maxCoeff();
-    EXPECT_LT((tau - expected).cwiseAbs().maxCoeff(), 1e-8 * size);
-    EXPECT_LT((a - program.JtW.col(0)).cwiseAbs().maxCoeff(), 1e-8);
+    EXPECT_LT((tau - expected).tail(known).cwiseAbs().maxCoeff(), 1e-8 * size);
+    EXPECT_LT((a - program.JtW.col(0)).tail(known).cwiseAbs().maxCoeff(), 1e-8);
     if (!source.coordinates().base_is_dependent) {
       for (const int k : {0, 2}) {
         EXPECT_LT((loop.left(k) - loop.right(k)).cwiseAbs().maxCoeff(), 1e-8);
