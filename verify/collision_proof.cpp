@@ -98,10 +98,7 @@ const std::vector<CollisionProof::Movers>& CollisionProof::movers(int pair) {
   if (found != known_.end()) return found->second;
   std::vector<Movers>& both = known_[pair];
   InscribedBoxPair inscribed_boxes;
-  const int left_out = model_.coordinates().left_out;
-  if (problem_.robot.collision->inscribed_boxes(pair, inscribed_boxes) &&
-      (left_out < 0 ||
-       !is_between(problem_.robot, left_out, inscribed_boxes.a.link, inscribed_boxes.b.link))) {
+  if (problem_.robot.collision->inscribed_boxes(pair, inscribed_boxes)) {
     both.push_back(movers(inscribed_boxes.a, inscribed_boxes.b, inscribed_boxes.reach));
     both.push_back(movers(inscribed_boxes.b, inscribed_boxes.a, inscribed_boxes.reach));
   }

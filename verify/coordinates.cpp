@@ -72,14 +72,6 @@ int joint_about_yaw(const Problem& problem) {
   return joint.type == JointType::kRevolute && upright ? first : -1;
 }
 
-bool is_between(const Robot& robot, int joint, int a, int b) {
-  const auto carries = [&](int link) {
-    while (link > joint + 1) link = robot.joints[static_cast<std::size_t>(link - 1)].parent;
-    return link == joint + 1;
-  };
-  return carries(a) != carries(b);
-}
-
 PostureCoordinates::PostureCoordinates(const Problem& problem, int without)
     : of_joint(problem.robot.joints.size(), -1), chain(joints_between(problem)), left_out(without) {
   throw_unless_supported(

@@ -50,9 +50,6 @@ struct PostureCoordinates {
 /// and so may collisions between these links and others.
 int joint_about_yaw(const Problem& problem);
 
-/// Whether a joint is between two links, so that it moves one in the axes of the other.
-bool is_between(const Robot& robot, int joint, int a, int b);
-
 /// The position of a joint that is not a coordinate.
 double rest_of(const Problem& problem, std::size_t joint);
 

@@ -86,13 +86,14 @@ std::vector<std::size_t> upper_halves(const CertificateTree& tree) {
 /// same number, so they cover it.
 class TreeWalk {
  public:
-  TreeWalk(const Problem& problem, const FormModel& model, const Equations& equations,
+  /// `posture`: the model with all coordinates.
+  TreeWalk(const Problem& problem, const FormModel& posture, const Equations& equations,
            const ProofCertificate& proof, const std::vector<std::size_t>& second,
            std::unique_ptr<ValueProof> value)
       : proof_(proof),
         second_(second),
         value_(std::move(value)),
-        collision_(problem, model),
+        collision_(problem, posture),
         off_postures_(equations) {}
 
   /// Checks all boxes below a node; stops where the proof fails.
@@ -227,7 +228,7 @@ std::string reject_left_out(const Problem& problem, const ProofCertificate& proo
 }
 
 /// Checks the claims that do not depend on the boxes.
-std::string reject_claims(const Problem& problem, const FormModel& boxed, const FormModel& model,
+std::string reject_claims(const Problem& problem, const FormModel& model,
                           const Equations& equations, const ProofCertificate& proof) {
   if (proof.digest != digest(problem)) return "it is for another robot or task";
   if (proof.tree.of_list != !problem.scenarios.empty()) return "it is for another kind of task";
@@ -237,7 +238,7 @@ std::string reject_claims(const Problem& problem, const FormModel& boxed, const 
   const int n = model.coordinates().count();
   if (proof.lower.size() != n || proof.upper.size() != n) return "its box has other joints";
   if (!proof.lower.allFinite() || !proof.upper.allFinite() ||
-      !holds_all(boxed.coordinates(), proof)) {
+      !holds_all(model.coordinates(), proof)) {
     return "its box does not contain the limits";
   }
   if (!((proof.upper - proof.lower).array() <= kWidest).all()) return "its box is too wide";
@@ -279,13 +280,13 @@ Verification verify(const Problem& problem, const ProofCertificate& proof, int t
   const Equations equations(problem, model);
   const auto value = make_value_proof(problem, model, equations, proof.measure, proof.wrench);
   result.ceiling = value->ceiling();
-  result.rejection = reject_claims(problem, model, posture, Equations(problem, posture), proof);
+  result.rejection = reject_claims(problem, posture, Equations(problem, posture), proof);
   if (result.rejection.empty()) {
     result.rejection = reject_shape(proof.tree, proof.lower.size(), *value, equations.count());
   }
   if (!result.rejection.empty()) return result;
   const std::vector<std::size_t> second = upper_halves(proof.tree);
-  TreeWalk first(problem, model, equations, proof, second, value->clone());
+  TreeWalk first(problem, posture, equations, proof, second, value->clone());
   const std::vector<OpenBox> open =
       first_boxes(first, {0, proof.lower, proof.upper, result.ceiling});
   std::size_t failed = std::size_t(-1);
@@ -294,7 +295,7 @@ Verification verify(const Problem& problem, const ProofCertificate& proof, int t
   std::mutex mutex;
   const auto work = [&, flag = Interruption::flag()] {
     const Interruption interruption(flag);
-    TreeWalk walk(problem, model, equations, proof, second, value->clone());
+    TreeWalk walk(problem, posture, equations, proof, second, value->clone());
     for (std::size_t i = next++; i < open.size() && !is_interrupted(); i = next++) {
       walk.walk(open[i]);
       const std::lock_guard<std::mutex> guard(mutex);

@@ -88,6 +88,11 @@ class Bound {
     return true;
   }
 
+  /// Returns the coordinate on which no value depends, apart from collisions; -1: none.
+  ///
+  /// Boxes are cut along it only where `BoxProof::axis` says so.
+  virtual int left_out() const { return -1; }
+
   /// Returns a number that no value exceeds at any theta_r within its limits.
   virtual double ceiling() const = 0;
 

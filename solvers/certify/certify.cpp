@@ -6,6 +6,7 @@
 
 #include "lib/math/require.h"
 #include "maxwrench/batch.h"
+#include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/halving.h"
 
 namespace maxwrench {
@@ -27,6 +28,7 @@ class BranchAndBound {
       : objective_(objective),
         options_(options),
         halving_(objective, bound, options.threads, options.sink != nullptr),
+        left_out_(bound.left_out()),
         start_(std::chrono::steady_clock::now()) {
     result_.best = incumbent;
     keep(halving_.root(target(), bound.ceiling()));
@@ -101,7 +103,7 @@ class BranchAndBound {
 
   void cut_parents() {
     for (auto& parent : parents_) {
-      parent->cut_axis = axis_to_cut(*parent, kNarrowestBox);
+      parent->cut_axis = axis_to_cut(*parent, kNarrowestBox, left_out_);
       if (parent->cut_axis < 0) narrow_.push_back(std::move(parent));
     }
     std::erase(parents_, nullptr);
@@ -126,7 +128,7 @@ class BranchAndBound {
   void improve() {
     for (std::size_t i = 0; i < parents_.size(); ++i) {
       const CertifiedBox& box = *parents_[i];
-      const double width = (box.upper - box.lower).maxCoeff();
+      const double width = widest(box.lower, box.upper, left_out_);
       if (i % kSeldom == 0 || width < kSmallBox)
         local_search((box.lower + box.upper).head(objective_.dimension()) / 2, width / 4);
     }
@@ -170,6 +172,7 @@ class BranchAndBound {
   Objective& objective_;
   const CertifyOptions& options_;
   Halving halving_;
+  const int left_out_;
   std::chrono::steady_clock::time_point start_;
   CertifiedBoxes waiting_;  ///< a heap
   CertifiedBoxes parents_;

@@ -83,14 +83,14 @@ void Halving::bound_one(CertifiedBox& box, double low) {
   free_.push_back(std::move(bound));
 }
 
-int axis_to_cut(const CertifiedBox& box, double narrowest) {
+int axis_to_cut(const CertifiedBox& box, double narrowest, int left_out) {
   int axis = -1;
   double most = narrowest;
   const int hint = box.proof.axis;
   if (hint >= 0 && box.upper[hint] - box.lower[hint] > narrowest) return hint;
   for (Eigen::Index i = 0; i < box.lower.size(); ++i) {
     const double width = box.upper[i] - box.lower[i];
-    if (width <= most) continue;
+    if (width <= most || i == left_out) continue;
     most = width;
     axis = static_cast<int>(i);
   }

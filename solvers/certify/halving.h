@@ -42,9 +42,9 @@ class Halving {
   std::vector<std::unique_ptr<Bound>> free_;
 };
 
-/// The axis along which a box is cut: the coordinate that its bound names, else the widest; -1 if
-/// no coordinate is wider than `narrowest`.
-int axis_to_cut(const CertifiedBox& box, double narrowest);
+/// The axis along which a box is cut: the coordinate that its bound names, else the widest but
+/// `left_out`; -1 if none of these is wider than `narrowest`.
+int axis_to_cut(const CertifiedBox& box, double narrowest, int left_out = -1);
 
 /// Boxes narrower than this [rad or m] are not cut.
 inline constexpr double kNarrowestBox = 1e-6;

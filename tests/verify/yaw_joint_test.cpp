@@ -2,8 +2,10 @@
 
 #include <cmath>
 
+#include "lib/robot/kinematics.h"
 #include "maxwrench/certify.h"
 #include "maxwrench/load.h"
+#include "problems/collision/collision.h"
 #include "solvers/certify/bound/loop_posture.h"
 #include "solvers/certify/proof.h"
 #include "solvers/certify/proof_recorder.h"
@@ -26,15 +28,6 @@ TEST(VerifyYawJoint, IsThatOfTheBound) {
   for (const char* name : {"fixed/push", "uvms/valve", "dual_arm/bar_wall"}) {
     EXPECT_EQ(joint_about_yaw(load_problem(name)), -1) << name;
   }
-}
-
-TEST(VerifyYawJoint, IsBetweenTheBaseAndItsLinks) {
-  const Robot robot = on_parked_base().robot;
-  EXPECT_TRUE(is_between(robot, 0, 0, 1));
-  EXPECT_TRUE(is_between(robot, 0, 5, 0));
-  EXPECT_FALSE(is_between(robot, 0, 1, 5));
-  EXPECT_TRUE(is_between(robot, 3, 2, 4));
-  EXPECT_FALSE(is_between(robot, 3, 2, 3));
 }
 
 /// At any x of the coordinates that are left, the loads of the chain's joints are those of the
@@ -67,19 +60,49 @@ TEST(VerifyYawJoint, LoadsAreThoseOfTheBoundAnywhere) {
   }
 }
 
+ProofCertificate proof_of(const Problem& problem) {
+  Options options;
+  options.budget = 2000;
+  options.threads = 1;
+  ProofRecorder recorder;
+  ProofOptions how;
+  how.gap = 1e-2;
+  const Proof proof = certify(problem, options, how, &recorder);
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.c_str();
+  return recorder.certificate(proof.answer, proof.bound, how.gap);
+}
+
+/// The origin of the last link at the posture of a certificate, in base axes.
+Eigen::Vector3d hand_of(const Problem& problem, const ProofCertificate& proof) {
+  const PostureCoordinates coordinates(problem);
+  Eigen::VectorXd q(static_cast<Eigen::Index>(problem.robot.joints.size()));
+  for (Eigen::Index i = 0; i < q.size(); ++i) {
+    const auto variable =
+        static_cast<std::size_t>(coordinates.of_joint[static_cast<std::size_t>(i)]);
+    q[i] = proof.x[coordinates.variables[variable].coordinate];
+  }
+  Kinematics<double> kinematics(problem.robot);
+  kinematics.set_joints(q);
+  return kinematics.links().back().p;
+}
+
+/// With a ball on the base and a small one at the last link, which collide with each other.
+Problem with_balls(Problem problem, const Eigen::Vector3d& at, double radius) {
+  Shape ball;
+  ball.placement.p = at;
+  ball.radius = radius;
+  Shape hand;
+  hand.link = static_cast<int>(problem.robot.links.size()) - 1;
+  hand.radius = 0.01;
+  problem.robot.collision = make_collision_checker({ball, hand}, {}, 0);
+  return problem;
+}
+
 class YawJointProof : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     problem_ = new Problem(on_parked_base());
-    Options options;
-    options.budget = 2000;
-    options.threads = 1;
-    ProofRecorder recorder;
-    ProofOptions how;
-    how.gap = 1e-2;
-    const Proof proof = certify(*problem_, options, how, &recorder);
-    ASSERT_EQ(proof.status, Status::kProven) << proof.reason.c_str();
-    certificate_ = new ProofCertificate(recorder.certificate(proof.answer, proof.bound, how.gap));
+    certificate_ = new ProofCertificate(proof_of(*problem_));
   }
   static void TearDownTestSuite() {
     delete certificate_;
@@ -115,7 +138,7 @@ TEST_F(YawJointProof, NoPostureIsAbove) {
 
 TEST_F(YawJointProof, IsRejectedWithTheJoint) {
   ProofCertificate proof = *certificate_;
-  proof.without_yaw_joint = false;  // its boxes have one position of the joint
+  proof.without_yaw_joint = false;  // its boxes are too wide for bounds with the joint
   EXPECT_NE(rejection(proof), "");
 }
 
@@ -142,6 +165,12 @@ TEST_F(YawJointProof, IsRejectedOfOtherTasksAndMeasures) {
   EXPECT_EQ(verify(other, proof, 1).rejection, expected);
 }
 
+TEST_F(YawJointProof, IsRejectedWithoutAPartOfTheJoint) {
+  ProofCertificate proof = *certificate_;
+  proof.upper[0] -= 0.1;  // what collides there may not collide elsewhere
+  EXPECT_EQ(rejection(proof), "its box does not contain the limits");
+}
+
 TEST_F(YawJointProof, IsRejectedWithoutAPartOfTheYaw) {
   ProofCertificate proof = *certificate_;
   const FormModel model(*problem_);
@@ -149,6 +178,29 @@ TEST_F(YawJointProof, IsRejectedWithoutAPartOfTheYaw) {
   const int yaw = model.coordinates().variables[at].coordinate;
   proof.upper[yaw] = proof.lower[yaw] + 6;
   EXPECT_EQ(rejection(proof), "its box does not contain the limits");
+}
+
+/// A ball about the joint's axis is in the hand's way wherever the base stands. Its collisions are
+/// proven for parts of the joint's range.
+TEST_F(YawJointProof, KnowsWhatCollidesWhereverTheBaseStands) {
+  const Eigen::Vector3d hand = hand_of(*problem_, *certificate_);
+  const Eigen::Vector3d axis = problem_->robot.joints[0].placement.p;
+  const Eigen::Vector3d centre(axis[0], axis[1], hand[2]);
+  const Problem hidden = with_balls(*problem_, centre, (hand - centre).norm() + 0.05);
+  const ProofCertificate proof = proof_of(hidden);
+  EXPECT_LT(proof.bound, certificate_->value);
+  const Verification result = verify(hidden, proof, 1);
+  EXPECT_EQ(result.rejection, "");
+  EXPECT_GT(result.by_collision, 0);
+}
+
+/// A ball that is in the hand's way from one side costs nothing: the base stands elsewhere.
+TEST_F(YawJointProof, KnowsThatTheBaseMayStandElsewhere) {
+  const Eigen::Vector3d hand = hand_of(*problem_, *certificate_);
+  const Problem hidden = with_balls(*problem_, hand, 0.05);
+  const ProofCertificate proof = proof_of(hidden);
+  EXPECT_NEAR(proof.value, certificate_->value, 0.01 * certificate_->value);
+  EXPECT_EQ(verify(hidden, proof, 1).rejection, "");
 }
 
 }  // namespace

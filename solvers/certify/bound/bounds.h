@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <limits>
 #include <optional>
 
@@ -118,9 +119,20 @@ double braced_ceiling(const Problem& problem);
 /// Returns -infinity for boxes throughout which two bodies collide, else `high`. For each pair of
 /// bodies, a point of one body's core moves along a multi-affine path in the axes of the other's
 /// link. The other's core, with its reach, is convex: if it contains all control points of the
-/// path, it contains the point. Null if the robot has no cores. Pairs that the coordinate
-/// `left_out` moves are left out, too.
+/// path, it contains the point. Null if the robot has no cores.
+///
+/// The box of the coordinate `left_out` is wide. Where bodies collide at its middle throughout a
+/// box, the box is cut along it.
 std::unique_ptr<Bound> make_collision_bound(const Problem& problem,
                                             std::optional<int> left_out = std::nullopt);
+
+/// The width of a box along its widest coordinate, except one of them; -1: all count.
+inline double widest(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, int except) {
+  double most = 0;
+  for (Eigen::Index i = 0; i < lower.size(); ++i) {
+    if (i != except) most = std::max(most, upper[i] - lower[i]);
+  }
+  return most;
+}
 
 }  // namespace maxwrench

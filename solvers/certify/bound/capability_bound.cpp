@@ -14,6 +14,7 @@ class CapabilityBound final : public Bound {
   CapabilityBound(std::unique_ptr<Bound> measure, std::unique_ptr<Bound> collision)
       : measure_(std::move(measure)), collision_(std::move(collision)) {}
 
+  int left_out() const override { return measure_->left_out(); }
   double ceiling() const override { return measure_->ceiling(); }
 
   void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,

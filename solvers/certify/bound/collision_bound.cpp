@@ -34,12 +34,6 @@ Coordinates between_links(const Problem& problem, int a, int b) {
   return some;
 }
 
-/// Whether a coordinate moves one of the boxes relative to the other.
-bool moves(const Problem& problem, int coordinate, const InscribedBoxPair& boxes) {
-  const std::vector<int> some = between_links(problem, boxes.a.link, boxes.b.link).index;
-  return std::find(some.begin(), some.end(), coordinate) != some.end();
-}
-
 /// The rows of (R, p) of link a in the axes of link b, 12, column by column.
 MultiAffine relative_pose(const Problem& problem, int a, int b) {
   ExactPosture posture(problem);
@@ -112,10 +106,11 @@ using Movers = std::vector<Mover>;
 
 class CollisionBound final : public Bound {
  public:
-  CollisionBound(const Problem& problem, std::shared_ptr<const Movers> movers)
+  CollisionBound(const Problem& problem, std::shared_ptr<const Movers> movers, int left_out)
       : problem_(problem),
         joints_(moved_joints(problem)),
         movers_(std::move(movers)),
+        left_out_(left_out),
         centre_(problem.robot),
         q_(problem.contact ? problem.contact->q_rest : resting_joints(problem.robot)) {
     for (const Mover& mover : *movers_) corners_.emplace_back(mover.path);
@@ -129,7 +124,7 @@ class CollisionBound final : public Bound {
     proof.axis = -1;
     place(lower, upper);
     nearest_ = -1;
-    near_ = upper.size() == 0 ? 0 : kLever * (upper - lower).maxCoeff();
+    near_ = kLever * widest(lower, upper, left_out_);
     for (int i = 0; i < static_cast<int>(movers_->size()); ++i) {
       if (!collides(i, lower, upper)) continue;
       proof.kind = BoxProof::Kind::kCollision;
@@ -138,10 +133,11 @@ class CollisionBound final : public Bound {
       return;
     }
     if (nearest_ >= 0) proof.axis = cut(nearest_, lower, upper);
+    if (left_out_ >= 0 && collides_at_middle(lower, upper)) proof.axis = left_out_;
   }
 
   std::unique_ptr<Bound> clone() const override {
-    return std::make_unique<CollisionBound>(problem_, movers_);
+    return std::make_unique<CollisionBound>(problem_, movers_, left_out_);
   }
 
  private:
@@ -154,12 +150,24 @@ class CollisionBound final : public Bound {
     centre_.set_joints(q_);
   }
 
+  /// Whether bodies collide throughout the box with the coordinate that is left out at its middle.
+  bool collides_at_middle(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
+    part_lower_ = lower;
+    part_upper_ = upper;
+    part_lower_[left_out_] = part_upper_[left_out_] = (lower[left_out_] + upper[left_out_]) / 2;
+    place(part_lower_, part_upper_);
+    for (int i = 0; i < static_cast<int>(movers_->size()); ++i) {
+      if (collides(i, part_lower_, part_upper_)) return true;
+    }
+    return false;
+  }
+
   /// A coordinate along which one half of the box collides, not much narrower than the widest one;
   /// -1 if there is none.
   int cut(int mover, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
-    const double widest = (upper - lower).maxCoeff();
+    const double most = widest(lower, upper, left_out_);
     for (const int i : (*movers_)[static_cast<std::size_t>(mover)].path.coordinates().index) {
-      if (upper[i] - lower[i] < kThinnest * widest) continue;
+      if (i == left_out_ || upper[i] - lower[i] < kThinnest * most) continue;
       for (const bool second : {false, true}) {
         part_lower_ = lower;
         part_upper_ = upper;
@@ -220,6 +228,7 @@ class CollisionBound final : public Bound {
   const Problem& problem_;
   const std::vector<int> joints_;
   std::shared_ptr<const Movers> movers_;
+  const int left_out_;
   std::vector<ControlPoints> corners_;
   Kinematics<double> centre_;
   Eigen::VectorXd q_, part_lower_, part_upper_;
@@ -235,7 +244,6 @@ std::unique_ptr<Bound> make_collision_bound(const Problem& problem, std::optiona
   for (int pair = 0; checker != nullptr && pair < checker->pairs(); ++pair) {
     InscribedBoxPair inscribed_boxes;
     if (!checker->inscribed_boxes(pair, inscribed_boxes)) continue;
-    if (left_out && moves(problem, *left_out, inscribed_boxes)) continue;
     const bool a = is_segment(inscribed_boxes.a), b = is_segment(inscribed_boxes.b);
     if (a || !b)
       movers->push_back(
@@ -245,7 +253,7 @@ std::unique_ptr<Bound> make_collision_bound(const Problem& problem, std::optiona
           mover(problem, pair, inscribed_boxes.b, inscribed_boxes.a, inscribed_boxes.reach));
   }
   if (movers->empty()) return nullptr;
-  return std::make_unique<CollisionBound>(problem, std::move(movers));
+  return std::make_unique<CollisionBound>(problem, std::move(movers), left_out.value_or(-1));
 }
 
 }  // namespace maxwrench

@@ -114,7 +114,7 @@ std::optional<int> coordinate_about_yaw(const Problem& problem) {
 }
 
 LoopCoordinates::LoopCoordinates(const Problem& problem, ContactForces forces,
-                                 std::optional<int> left_out)
+                                 std::optional<int> about_yaw)
     : base_is_dependent(problem.robot.base_axes.size() == 6 ||
                         (problem.dependent.empty() && !problem.contact)) {
   const auto own = static_cast<int>(problem.redundancy());
@@ -128,7 +128,8 @@ LoopCoordinates::LoopCoordinates(const Problem& problem, ContactForces forces,
   }
   yaw = {second.to, chain.count()};
   joints = chain_to(problem.robot, problem.end_effector);
-  if (left_out) {
+  if (about_yaw) {
+    left_out = *about_yaw;
     resting = joints.front();
     joints.erase(joints.begin());
   }
@@ -150,9 +151,9 @@ LoopCoordinates::LoopCoordinates(const Problem& problem, ContactForces forces,
   if (problem.contact && forces == ContactForces::kShares) limit_forces(problem);
   for (Eigen::Index k = 0; k < w_min.size(); ++k) add(next++, false, 0, 1);
   shares = {regrasp.to, chain.count()};
-  if (left_out) {
-    lower[*left_out] = upper[*left_out] =
-        (problem.theta_r_min[*left_out] + problem.theta_r_max[*left_out]) / 2;
+  if (about_yaw) {
+    lower[left_out] = problem.theta_r_min[left_out];
+    upper[left_out] = problem.theta_r_max[left_out];
   }
 }
 

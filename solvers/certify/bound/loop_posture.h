@@ -42,8 +42,8 @@ std::optional<int> left_out_coordinate(const Problem& problem, const std::string
 /// with t the value, at least zero if v is not zero. A component that has no limit of its own is
 /// bounded by what the base's linear axes can bear in addition to t c.
 ///
-/// The coordinate about the yaw can be left out. Its joint then rests in the chain, its limits are
-/// one number, and the yaw stands for the sum of both.
+/// The coordinate about the yaw can be left out of the chain. Its joint then rests, and the yaw
+/// stands for the sum of both.
 ///
 /// The chain has this order: the second arm's joints; from the world to the end effector, the yaw,
 /// the joints from the base outward and the free coordinates of the pose; the regrasp coordinates;
@@ -55,14 +55,15 @@ struct LoopCoordinates {
   };
 
   /// Throws std::invalid_argument with one line if shares have no limits. With `kOfBase` there are
-  /// no shares. `left_out`: the coordinate about the yaw.
+  /// no shares. `about_yaw`: the coordinate to leave out, or none.
   explicit LoopCoordinates(const Problem& problem, ContactForces forces = ContactForces::kShares,
-                           std::optional<int> left_out = std::nullopt);
+                           std::optional<int> about_yaw = std::nullopt);
 
   Coordinates chain;  ///< as indices into x
   Stretch second, yaw, first, free, regrasp, shares;
   std::vector<int> joints;         ///< of the robot, in `first`
-  std::optional<int> resting;      ///< the joint that is left out, which comes before these
+  int left_out = -1;               ///< the coordinate that is left out, or -1
+  std::optional<int> resting;      ///< its joint, which comes before these
   bool base_is_dependent = false;  ///< its pose follows from the joints in closed form
   Eigen::VectorXd lower, upper;    ///< limits of x
   Eigen::VectorXd w_min, w_max;    ///< of the second contact's w, finite

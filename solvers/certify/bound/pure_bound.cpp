@@ -43,6 +43,7 @@ class PureBound final : public Bound {
     entries_.setZero(free_rows() + equation_rows_);
   }
 
+  int left_out() const override { return model_->coordinates.left_out; }
   double ceiling() const override { return ceiling_; }
 
   void extend(Eigen::VectorXd& lower, Eigen::VectorXd& upper) const override {

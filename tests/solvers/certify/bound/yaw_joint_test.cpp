@@ -78,7 +78,7 @@ TEST(YawJoint, LeavesTheRowsOfTheChain) {
   EXPECT_EQ(model.size, 243);
   EXPECT_EQ(model.coordinates.chain.count(), 5);
   EXPECT_EQ(model.dropped, (std::vector<int>{0, 1, 2}));
-  EXPECT_EQ(model.coordinates.lower[0], model.coordinates.upper[0]);
+  EXPECT_EQ(model.coordinates.left_out, 0);
 }
 
 }  // namespace
