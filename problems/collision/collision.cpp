@@ -75,10 +75,8 @@ Pair make_pair(const std::vector<Shape>& shapes, int i, int j, double margin) {
   const Shape& box = pair.box_first ? a : b;
   pair.aligned = box.link <= 0 && box.placement.R.isIdentity(0);
   pair.reach = bounding_radius(a) + bounding_radius(b) + margin;
-  pair.radius = margin;
-  for (const Shape* shape : {&a, &b}) {
-    if (is(*shape, Shape::Kind::kCapsule)) pair.radius += shape->radius;
-  }
+  const Shape& capsule = pair.box_first ? b : a;
+  pair.radius = capsule.radius + (pair.test == Test::kCapsules ? b.radius : 0) + margin;
   if (pair.test != Test::kGrown) return pair;
   const bool grow_b = is(b, Shape::Kind::kCapsule);  // growing a capsule is exact
   pair.grown_a = make_grown_shape(a, grow_b ? 0 : margin);

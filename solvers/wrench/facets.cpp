@@ -34,19 +34,31 @@ class Ray {
     flat_ = kSlopeTolerance * std::sqrt(norm);
     missed_pair = -1;
     for_packs(pairs, [&]<int L>(Eigen::Index j) { cross<L>(set, tau, a, j); });
-    PackMax last, first;
-    for_packs(pairs, [&]<int L>(Eigen::Index j) {
-      last.add(pack<L>(&enter_[j]));
-      first.add(-pack<L>(&leave_[j]));
-    });
-    low = last.value();
-    high = -first.value();
+    find_ends();
   }
 
   int low_pair() const { return find(enter_, low); }
   int high_pair() const { return find(leave_, high); }
 
  private:
+  void find_ends() {
+    using Pack = SimdPack<kPackSize>;
+    Pack last = Pack::Constant(-kInfinity), first = Pack::Constant(kInfinity);
+    low = -kInfinity;
+    high = kInfinity;
+    for_packs(enter_.size(), [&]<int L>(Eigen::Index j) {
+      if constexpr (L == kPackSize) {
+        last = last.max(pack<L>(&enter_[j]));
+        first = first.min(pack<L>(&leave_[j]));
+      } else {
+        low = std::max(low, enter_[j]);
+        high = std::min(high, leave_[j]);
+      }
+    });
+    low = std::max(low, last.maxCoeff());
+    high = std::min(high, first.minCoeff());
+  }
+
   static int find(const Eigen::VectorXd& bounds, double bound) {
     int j = 0;
     while (bounds[j] != bound) ++j;
@@ -68,7 +80,12 @@ class Ray {
     pack<L>(&enter_[j]) = first.min(second);
     pack<L>(&leave_[j]) = first.max(second);
     for (Eigen::Index k = 0; k < L; ++k) {
-      if (!(std::abs(slope[k]) > flat_)) stay_beside(set, value[k], j + k);
+      if (!(std::abs(slope[k]) > flat_)) {
+        stay_beside(set, value[k], j + k);
+      } else if (!(enter_[j + k] <= leave_[j + k])) {  // an overflow
+        enter_[j + k] = -kInfinity;
+        leave_[j + k] = kInfinity;
+      }
     }
   }
 
