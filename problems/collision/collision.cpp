@@ -21,8 +21,7 @@ void place(const Shape& shape, const Pose<double>& link, bool oriented, Placed& 
   placed.pose.p.noalias() = link.R * shape.placement.p;
   placed.pose.p += link.p;
   if (oriented) placed.pose.R.noalias() = link.R * shape.placement.R;
-  placed.half_axis.noalias() = link.R * shape.placement.R.col(2);
-  placed.half_axis *= shape.half_length;
+  placed.half_axis = shape.half_length * (link.R * shape.placement.R.col(2));
 }
 
 Placed place_oriented(const Shape& shape, const Pose<double>& link) {
