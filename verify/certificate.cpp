@@ -239,6 +239,7 @@ ProofCertificate read_certificate(const std::string& file) {
   proof.measure = from.words();
   proof.wrench = from.whole(1) == 1 ? Wrench::kAny : Wrench::kPure;
   const std::uint64_t how = from.whole(1);
+  if (how > 3) throw std::invalid_argument(file + ": its claim is of an unknown kind");
   proof.collision = (how & 1) != 0;
   proof.without_yaw_joint = (how & 2) != 0;
   proof.digest = from.whole(8);

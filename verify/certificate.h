@@ -47,7 +47,7 @@ struct ProofCertificate {
   std::string measure;
   Wrench wrench = Wrench::kPure;
   bool collision = true;  ///< postures that collide are excluded
-  /// The boxes leave out the joint about the base's yaw, see `PostureCoordinates::left_out`.
+  /// The boxes leave out the joint about the base's yaw, see `joint_about_yaw`.
   bool without_yaw_joint = false;
   std::uint64_t digest = 0;  ///< of the robot and the task
   double bound = 0;          ///< [N or N m] no posture exceeds it

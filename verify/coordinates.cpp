@@ -73,7 +73,7 @@ int joint_about_yaw(const Problem& problem) {
 }
 
 PostureCoordinates::PostureCoordinates(const Problem& problem, int without)
-    : of_joint(problem.robot.joints.size(), -1), chain(joints_between(problem)), left_out(without) {
+    : of_joint(problem.robot.joints.size(), -1), chain(joints_between(problem)), resting(without) {
   throw_unless_supported(
       !problem.motion && (problem.contact_columns() == 0 || forces_follow_from_base(problem)),
       problem);
@@ -96,7 +96,7 @@ PostureCoordinates::PostureCoordinates(const Problem& problem, int without)
   }
   first = count();
   for (const int joint : chain) {
-    if (joint == left_out) continue;
+    if (joint == resting) continue;
     const int at = place_of(problem.redundant, joint);
     if (at < given) {
       add_joint(joint, at);
@@ -111,7 +111,7 @@ PostureCoordinates::PostureCoordinates(const Problem& problem, int without)
   regrasp = count();
   const bool around = problem.contact && problem.contact->surface == Surface::kCircle;
   while (at < own) variables.push_back({around, at++, 0, 0});
-  throw_unless_supported(count() + (left_out < 0 ? 0 : 1) == next, problem);
+  throw_unless_supported(count() + (resting < 0 ? 0 : 1) == next, problem);
   throw_on_moving_gears(problem, of_joint);
   for (Variable& variable : variables) {
     if (variable.coordinate >= own) continue;

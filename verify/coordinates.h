@@ -36,7 +36,7 @@ struct PostureCoordinates {
   int yaw = 0;                ///< first index of each stretch of variables
   int first = 0, free = 0, regrasp = 0;
   bool base_is_dependent = false;  ///< its pose has a closed form; else equations
-  int left_out = -1;               ///< `without`
+  int resting = -1;                ///< `without`
 
   int count() const { return static_cast<int>(variables.size()); }
   bool has_yaw() const { return first > yaw; }

@@ -88,8 +88,8 @@ void Equations::add_base(const Problem& problem, const FormModel& model) {
   const Robot& robot = problem.robot;
   const PostureCoordinates& at = model.coordinates();
   const int k = std::clamp((at.yaw + at.regrasp) / 2 - at.first, 0, at.free - at.first);
-  const int resting = at.left_out < 0 ? 0 : 1;  // joints of the chain before its variables
-  const int link = k == 0 ? 0 : at.chain[static_cast<std::size_t>(resting + k - 1)] + 1;
+  const int before = at.resting < 0 ? 0 : 1;  // joints of the chain before its variables
+  const int link = k == 0 ? 0 : at.chain[static_cast<std::size_t>(before + k - 1)] + 1;
   const EndEffector& tip = robot.end_effectors[static_cast<std::size_t>(problem.end_effector)];
   const FormPose own = constant_pose(model, {});
   FormPose left = seen(model, link, own, 0);

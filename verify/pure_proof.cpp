@@ -79,7 +79,7 @@ class PolytopeProof final : public PureProof {
   /// Without a joint about the yaw, only the rows of the chain's joints are those of the posture.
   bool rows_are_known(const double* lambda) const {
     const PostureCoordinates& coordinates = model_.coordinates();
-    if (coordinates.left_out < 0) return true;
+    if (coordinates.resting < 0) return true;
     const auto axes = static_cast<int>(problem_.robot.base_axes.size());
     for (int row = 0; row < static_cast<int>(rows_->tau.size()); ++row) {
       const auto& chain = coordinates.chain;

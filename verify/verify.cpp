@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <mutex>
+#include <optional>
 #include <thread>
 
 #include "maxwrench/interruption.h"
@@ -219,18 +220,19 @@ bool holds_all(const PostureCoordinates& coordinates, const ProofCertificate& pr
       });
 }
 
-std::string reject_left_out(const Problem& problem, const ProofCertificate& proof) {
-  if (!proof.without_yaw_joint) return "";
-  const bool single = proof.measure == "linf_polytope" && proof.wrench == Wrench::kPure &&
-                      problem.scenarios.empty();
-  if (single && !problem.motion && joint_about_yaw(problem) >= 0) return "";
-  return "it leaves out a joint that the base cannot replace";
+bool leaves_out_too_much(const Problem& problem, const ProofCertificate& proof) {
+  if (!proof.without_yaw_joint) return false;
+  return proof.measure != "linf_polytope" || proof.wrench != Wrench::kPure ||
+         !problem.scenarios.empty() || joint_about_yaw(problem) < 0;
 }
 
 /// Checks the claims that do not depend on the boxes.
 std::string reject_claims(const Problem& problem, const FormModel& model,
                           const Equations& equations, const ProofCertificate& proof) {
   if (proof.digest != digest(problem)) return "it is for another robot or task";
+  if (leaves_out_too_much(problem, proof)) {
+    return "it leaves out a joint that the base cannot replace";
+  }
   if (proof.tree.of_list != !problem.scenarios.empty()) return "it is for another kind of task";
   if (proof.collision != (problem.robot.collision != nullptr)) {
     return "it treats postures that collide differently";
@@ -272,15 +274,20 @@ std::vector<OpenBox> first_boxes(TreeWalk& walk, OpenBox root) {
 }  // namespace
 
 Verification verify(const Problem& problem, const ProofCertificate& proof, int threads) {
-  Verification result;
-  result.rejection = reject_left_out(problem, proof);
-  if (!result.rejection.empty()) return result;
   const FormModel posture(problem);  // with all coordinates
-  const FormModel model(problem, proof.without_yaw_joint ? joint_about_yaw(problem) : -1);
-  const Equations equations(problem, model);
+  const Equations all(problem, posture);
+  std::optional<FormModel> without;
+  std::optional<Equations> fewer;
+  if (proof.without_yaw_joint) {
+    without.emplace(problem, joint_about_yaw(problem));
+    fewer.emplace(problem, *without);
+  }
+  const FormModel& model = without ? *without : posture;
+  const Equations& equations = fewer ? *fewer : all;
   const auto value = make_value_proof(problem, model, equations, proof.measure, proof.wrench);
+  Verification result;
   result.ceiling = value->ceiling();
-  result.rejection = reject_claims(problem, posture, Equations(problem, posture), proof);
+  result.rejection = reject_claims(problem, posture, all, proof);
   if (result.rejection.empty()) {
     result.rejection = reject_shape(proof.tree, proof.lower.size(), *value, equations.count());
   }

@@ -10,7 +10,7 @@ namespace maxwrench {
 /// it the torque. No arm loads it as much.
 inline constexpr double kBrakeForce = 1e5;
 
-/// Whether brakes hold the base along all its free axes, whatever the load.
+/// Whether brakes hold the base: as many forces as it has free axes, each larger than any load.
 inline bool is_parked(const Robot& robot) {
   return robot.thrusters.size() == robot.base_axes.size() &&
          std::all_of(robot.thrusters.begin(), robot.thrusters.end(), [](const Thruster& each) {

@@ -89,10 +89,20 @@ void set_default(const TaskSpec& task, Problem& problem) {
   problem.theta_r_default = task.theta_r_default;
 }
 
+/// The joints of the task's posture, if it has one. Joints beside the chain rest, whatever it says
+/// of them.
+Eigen::VectorXd chain_at_posture(const TaskSpec& task, const Problem& problem) {
+  Eigen::VectorXd q = resting_joints(problem.robot);
+  if (!task.posture) return q;
+  const Eigen::VectorXd given = joints_at_posture(task);
+  for (const int joint : chain_to(problem.robot, problem.end_effector)) q[joint] = given[joint];
+  return q;
+}
+
 /// Sets the guess; where the task gives none, it is zero, moved into the limits.
 void set_guess(const TaskSpec& task, Problem& problem) {
   const Robot& robot = problem.robot;
-  problem.guess_q = task.posture ? joints_at_posture(task) : resting_joints(robot);
+  problem.guess_q = chain_at_posture(task, problem);
   for (const auto& [name, value] : task.guess) {
     const std::string key = "theta_r.guess." + name;
     require_finite(key, value);

@@ -157,12 +157,13 @@ TEST_F(YawJointProof, IsRejectedWithMultipliersOfTheBase) {
 TEST_F(YawJointProof, IsRejectedOfOtherTasksAndMeasures) {
   const std::string expected = "it leaves out a joint that the base cannot replace";
   ProofCertificate proof = *certificate_;
-  proof.measure = "ellipsoid";
-  EXPECT_EQ(rejection(proof), expected);
   const Problem other = load_problem("fixed/push");
-  proof = *certificate_;
+  EXPECT_EQ(verify(other, proof, 1).rejection, "it is for another robot or task");
   proof.digest = digest(other);
   EXPECT_EQ(verify(other, proof, 1).rejection, expected);
+  proof = *certificate_;
+  proof.measure = "ellipsoid";
+  EXPECT_EQ(rejection(proof), expected);
 }
 
 TEST_F(YawJointProof, IsRejectedWithoutAPartOfTheJoint) {

@@ -105,9 +105,10 @@ std::optional<int> coordinate_about_yaw(const Problem& problem) {
   if (chain.empty()) return std::nullopt;
   const Joint& joint = robot.joints[static_cast<std::size_t>(chain.front())];
   const Eigen::Vector3d axis = joint.placement.R * joint.axis;
-  if (joint.type != JointType::kRevolute || !(axis.head<2>().norm() <= kUpright)) {
-    return std::nullopt;
-  }
+  const auto is_upright = [](const Eigen::Vector3d& x) { return x.head<2>().norm() <= kUpright; };
+  if (joint.type != JointType::kRevolute || !is_upright(axis)) return std::nullopt;
+  // On a tilted floor, the yaw changes what other joints bear.
+  if (chain.size() < robot.joints.size() && !is_upright(robot.mount.R.col(2))) return std::nullopt;
   const int at = place_in(problem.redundant, chain.front());
   if (at == static_cast<int>(problem.redundant.size())) return std::nullopt;
   return at;

@@ -42,8 +42,8 @@ std::optional<int> left_out_coordinate(const Problem& problem, const std::string
 /// with t the value, at least zero if v is not zero. A component that has no limit of its own is
 /// bounded by what the base's linear axes can bear in addition to t c.
 ///
-/// The coordinate about the yaw can be left out of the chain. Its joint then rests, and the yaw
-/// stands for the sum of both.
+/// The coordinate about the yaw can be left out of the chain. Its joint then rests, and the yaw is
+/// that of a base that has turned in its place.
 ///
 /// The chain has this order: the second arm's joints; from the world to the end effector, the yaw,
 /// the joints from the base outward and the free coordinates of the pose; the regrasp coordinates;

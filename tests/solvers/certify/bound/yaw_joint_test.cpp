@@ -37,6 +37,14 @@ TEST(YawJoint, IsTheFirstOneAboutTheYawOfAParkedBase) {
     p.robot.thrusters.clear();
     add_brakes(p.robot);
   }));
+  EXPECT_TRUE(
+      none_after([](Problem& p) {  // on the tilted floor, its yaw changes the load of a joint
+        Joint side = p.robot.joints[0];
+        side.name = "side";
+        p.robot.joints.push_back(side);
+        p.robot.links.push_back(p.robot.links[1]);
+        complete_actuation(p.robot);
+      }));
   EXPECT_FALSE(coordinate_about_yaw(load_problem("mobile/push")).has_value());  // wheels
   EXPECT_FALSE(coordinate_about_yaw(load_problem("uvms/valve")).has_value());
 }
