@@ -1,8 +1,8 @@
 // Times the lower level over the instants of a slow motion, cold. Our solvers are the interior
-// point method, the same after its attempt on the worst instant, and our general simplex. The peers are GLPK and Clp, by its dual and its primal simplex and
-// by its choice after presolving. The assembly of the peers' program is not timed. Then prints how
-// many times faster ours are than the best peer of the same run. Every answer is checked, as
-// everywhere.
+// point method, the same after its attempt on the worst instant, and our general simplex. The peers
+// are GLPK and Clp, by its dual and its primal simplex and by its choice after presolving. The
+// assembly of the peers' program is not timed. Then prints how many times faster ours are than the
+// best peer of the same run. Every answer is checked, as everywhere.
 //
 // Robots: the underwater vehicle of uvms/valve, the planar one, the wheeled one, and the underwater
 // one with nine joints. Each row also shows the number of variables of an instant in the interior
