@@ -6,7 +6,7 @@ set(maxwrench_solvers_sources
   certify/bound/loop_linear.cpp certify/bound/loop_model.cpp certify/bound/loop_posture.cpp certify/bound/multi_affine.cpp
   certify/bound/thrust_points.cpp
   certify/bound/multiplier_program.cpp certify/bound/pure_bound.cpp 
-  certify/box_tree.cpp certify/certify.cpp certify/good_postures.cpp certify/halving.cpp certify/proof.cpp
+  certify/box_coordinates.cpp certify/box_tree.cpp certify/certify.cpp certify/clusters.cpp certify/good_postures.cpp certify/halving.cpp certify/proof.cpp
   certify/proof_recorder.cpp
   certify/trajectory/edge_program.cpp certify/trajectory/solve_proven.cpp certify/trajectory/trajectory_proof.cpp
   explain/best_posture.cpp explain/efforts.cpp explain/exits.cpp explain/explain.cpp explain/explanation_json.cpp

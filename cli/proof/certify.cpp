@@ -92,9 +92,8 @@ int certify_motion(const CertifyCommandOptions& options, const CLI::App& command
                             options.certificate, options.json);
 }
 
-/// The check of a certificate does not support all tasks. The list of good postures needs boxes of
-/// theta_r only.
-void throw_on_dependents(const CertifyCommandOptions& options, const Problem& problem) {
+/// Neither the check of a certificate nor the list of good postures supports all tasks.
+void throw_on_unsupported(const CertifyCommandOptions& options, const Problem& problem) {
   const Options of = options.read_options();
   const std::string got = why_no_certificate(problem, of.wrench, of.measure);
   if (!options.certificate.empty() && !got.empty()) {
@@ -164,7 +163,7 @@ void print_proof_object(const CertifyCommandOptions& options, const Problem& pro
   object["colliding"] = proof.colliding;
   object["wall_s"] = proof.seconds;
   object["within"] = nullptr;
-  if (certified.good) object["within"] = to_json(*certified.good, options.within);
+  if (certified.good) object["within"] = to_json(problem, *certified.good, options.within);
   object["version"] = version();
   print_json(object);
 }
@@ -257,7 +256,7 @@ void add_certify(CLI::App& app, int& exit_status) {
                                   ": got " + problem.name +
                                   ", a static task, expected a task in time");
     }
-    throw_on_dependents(*options, problem);
+    throw_on_unsupported(*options, problem);
     const Certified certified = prove(*options, problem);
     write_certificate(*options, certified);
     if (certified.good) write_good(certified.proof.answer, *certified.good, options->within);

@@ -5,11 +5,11 @@
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "benchmarks/tables/write_file.h"
 #include "cli/cli.h"
 #include "drawing/projections.h"
+#include "solvers/certify/box_coordinates.h"
 #include "solvers/solve/format.h"
 #include "solvers/solve/method.h"
 
@@ -47,17 +47,6 @@ std::string reject_resolution(const std::string& text) {
   return fmt::format("got '{}', expected a number >= {:g} [rad or m]", text, kLeastResolution);
 }
 
-/// The joints whose limits are a whole turn apart.
-std::vector<char> turning(const Problem& problem) {
-  std::vector<char> turns;
-  for (int i = 0; i < problem.redundancy(); ++i) {
-    const double range = problem.theta_r_max[i] - problem.theta_r_min[i];
-    turns.push_back(problem.theta_r_unit(i) == std::string("rad") &&
-                    std::abs(range - 2 * std::numbers::pi) < 1e-9);
-  }
-  return turns;
-}
-
 const char* word_of(const GoodPostures& good, const Cluster& cluster) {
   return good.holds(cluster) ? "holds" : "may_hold";
 }
@@ -75,9 +64,10 @@ void print_cluster(const Problem& problem, const GoodPostures& good, std::size_t
              good.holds(cluster) ? "holds" : "may hold",
              found ? fmt::format("{:.5f}", cluster.best.value) : "-", cluster.boxes,
              percent(cluster.share), found ? line(cluster.best.theta_r) : " none found");
-  for (Eigen::Index k = 0; k < cluster.lower.size(); ++k) {
-    fmt::print("{:>44}   {:.3f} to {:.3f} {}\n", problem.theta_r_name(static_cast<int>(k)),
-               cluster.lower[k], cluster.upper[k], problem.theta_r_unit(static_cast<int>(k)));
+  const BoxCoordinates coordinates(problem);
+  for (int k = 0; k < coordinates.count(); ++k) {
+    fmt::print("{:>44}   {:.3f} to {:.3f} {}\n", coordinates.name(k), cluster.lower[k],
+               cluster.upper[k], coordinates.unit(k));
   }
 }
 
@@ -112,9 +102,9 @@ std::vector<BoxGroup> groups_of(const GoodPostures& good, const char* unit) {
   const auto holds = static_cast<std::size_t>(holding(good));
   const std::size_t coloured = std::min(holds, kBoxColours);
   for (std::size_t i = 0; i < coloured; ++i) {
-    const Candidate& best = good.clusters[i].best;
+    const Cluster& cluster = good.clusters[i];
     groups.push_back(
-        {fmt::format("{}: {:.5g} {}", i + 1, best.value, unit), false, {}, {}, best.theta_r});
+        {fmt::format("{}: {:.5g} {}", i + 1, cluster.best.value, unit), false, {}, {}, cluster.x});
   }
   const std::size_t others = groups.size();
   groups.push_back({"other boxes that hold such postures", true, {}, {}});
@@ -132,9 +122,9 @@ std::vector<BoxGroup> groups_of(const GoodPostures& good, const char* unit) {
 std::string draw_good(const Answer& row, const GoodPostures& good, const WithinOptions& options) {
   const Problem& problem = *row.task;
   std::vector<BoxAxis> axes;
-  for (int i = 0; i < problem.redundancy(); ++i) {
-    axes.push_back({problem.theta_r_name(i), problem.theta_r_unit(i), problem.theta_r_min[i],
-                    problem.theta_r_max[i]});
+  const BoxCoordinates coordinates(problem);
+  for (int i = 0; i < coordinates.count(); ++i) {
+    axes.push_back({coordinates.name(i), coordinates.unit(i), good.lower[i], good.upper[i]});
   }
   const std::string title = fmt::format("{}: within {} of {:.5g} {}", problem.name,
                                         percent(options.share()), row.capability.beta, row.unit);
@@ -165,9 +155,8 @@ void WithinOptions::add(CLI::App& command) {
 }
 
 void WithinOptions::require_listable(const Problem& problem) const {
-  if (asked() && (!problem.dependent.empty() || problem.contact)) {
-    throw std::invalid_argument(
-        "--within: got a task with dependent joints or a second contact, expected one without");
+  if (asked() && problem.contact) {
+    throw std::invalid_argument("--within: got a task with a second contact, expected one without");
   }
 }
 
@@ -176,8 +165,12 @@ double WithinOptions::share() const { return parse_share(within); }
 GoodPostures verified_good_postures(const Problem& problem, const Method& method,
                                     const Bound& bound, double high, GoodOptions options,
                                     Answer& row) {
-  options.turns = turning(problem);
-  const auto objective = make_capability_objective(problem, row.choice.wrench, method.make_measure);
+  const MeasureMaker& make = method.make_measure;
+  options.turns = BoxCoordinates(problem).turns();
+  if (!problem.dependent.empty()) {
+    options.make_postures = make_all_postures(problem, row.choice.wrench, make);
+  }
+  const auto objective = make_capability_objective(problem, row.choice.wrench, make);
   GoodPostures good = find_good_postures(*objective, bound,
                                          {row.posture.theta_r, row.capability.beta}, high, options);
   for (Cluster& cluster : good.clusters) {
@@ -210,7 +203,11 @@ void print_good(const Problem& problem, const GoodPostures& good, const WithinOp
   }
 }
 
-nlohmann::ordered_json to_json(const GoodPostures& good, const WithinOptions& options) {
+nlohmann::ordered_json to_json(const Problem& problem, const GoodPostures& good,
+                               const WithinOptions& options) {
+  const BoxCoordinates named(problem);
+  auto coordinates = nlohmann::ordered_json::array();
+  for (int i = 0; i < named.count(); ++i) coordinates.push_back(named.name(i));
   auto clusters = nlohmann::ordered_json::array();
   for (const Cluster& cluster : good.clusters) {
     const bool found = cluster.best.value > -kInfinity;
@@ -221,13 +218,20 @@ nlohmann::ordered_json to_json(const GoodPostures& good, const WithinOptions& op
                         {"upper", array(cluster.upper)},
                         {"bound", known(std::isfinite(cluster.high), cluster.high)},
                         {"beta", known(found, cluster.best.value)},
-                        {"theta_r", known(found, array(cluster.best.theta_r))}});
+                        {"theta_r", known(found, array(cluster.best.theta_r))},
+                        {"x", known(found, array(cluster.x))}});
   }
-  return {{"share", options.share()},         {"least", good.least},
-          {"resolution", options.resolution}, {"widest", widest(good)},
-          {"status", to_string(good.status)}, {"reason", good.reason.str()},
-          {"boxes", good.boxes.size()},       {"bounded", good.bounded},
-          {"wall_s", good.seconds},           {"clusters", clusters}};
+  return {{"share", options.share()},
+          {"least", good.least},
+          {"resolution", options.resolution},
+          {"widest", widest(good)},
+          {"status", to_string(good.status)},
+          {"reason", good.reason.str()},
+          {"boxes", good.boxes.size()},
+          {"bounded", good.bounded},
+          {"wall_s", good.seconds},
+          {"coordinates", coordinates},
+          {"clusters", clusters}};
 }
 
 void write_good(const Answer& row, const GoodPostures& good, const WithinOptions& options) {

@@ -25,7 +25,7 @@ struct WithinOptions {
 
   void add(CLI::App& command);
   void add_list(CLI::App& command);  ///< without the files
-  /// Throws std::invalid_argument for a task whose good postures are no boxes of theta_r.
+  /// Throws std::invalid_argument for a task whose good postures cannot be listed.
   void require_listable(const Problem& problem) const;
   bool asked() const { return !within.empty(); }
   double share() const;  ///< `within` as a number
@@ -44,7 +44,8 @@ GoodPostures verified_good_postures(const Problem& problem, const Method& method
 /// Prints the good postures as text, after the proof for the best one.
 void print_good(const Problem& problem, const GoodPostures& good, const WithinOptions& options);
 
-nlohmann::ordered_json to_json(const GoodPostures& good, const WithinOptions& options);
+nlohmann::ordered_json to_json(const Problem& problem, const GoodPostures& good,
+                               const WithinOptions& options);
 
 /// Writes the requested files.
 void write_good(const Answer& row, const GoodPostures& good, const WithinOptions& options);

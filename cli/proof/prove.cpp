@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "cli/progress.h"
-#include "maxwrench/bound.h"
+#include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/proof.h"
 #include "solvers/solve/format.h"
 #include "solvers/solve/method.h"
@@ -40,7 +40,7 @@ GoodPostures list_with_progress(const Problem& problem, const WithinOptions& opt
   good.progress = [&line](std::size_t waiting, std::size_t kept) {
     line.show(fmt::format("within {} boxes kept, {} open", kept, waiting));
   };
-  const auto bound = make_capability_bound(problem, how.measure, how.wrench);
+  const auto bound = make_bound_of_all_coordinates(problem, how.measure, how.wrench);
   return verified_good_postures(problem, resolve(problem, how), *bound, proof.bound, good,
                                 proof.answer);
 }

@@ -38,6 +38,10 @@ void require_list(const ViewOptions& options, const Problem& problem) {
                                 ", a task in time, expected a static task");
   }
   options.within.require_listable(problem);
+  if (!problem.dependent.empty()) {
+    throw std::invalid_argument("--within: got " + problem.name +
+                                ", a task with dependent joints, expected one without");
+  }
 }
 
 /// The best posture with a proof, and the list of good ones if it has a value.

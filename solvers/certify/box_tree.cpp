@@ -128,9 +128,10 @@ std::vector<int> BoxTree::connect() {
   return numbers;
 }
 
-int BoxTree::find(const Eigen::VectorXd& x) const {
-  const auto holds = [&x](const auto& box) {
-    return (x.array() >= box.lower.array()).all() && (x.array() <= box.upper.array()).all();
+int BoxTree::find(const Eigen::VectorXd& x, double margin) const {
+  const auto holds = [&](const auto& box) {
+    return (x.array() >= box.lower.array() - margin).all() &&
+           (x.array() <= box.upper.array() + margin).all();
   };
   std::vector<int> waiting;
   if (!nodes_.empty()) waiting.push_back(0);

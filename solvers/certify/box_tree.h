@@ -6,8 +6,9 @@
 
 namespace maxwrench {
 
-/// A binary tree of boxes around many boxes, to find neighbours. Sides made by the same halvings
-/// are identical numbers, so comparisons are exact.
+/// A binary tree of boxes around many boxes, to find neighbours. Comparisons are exact: sides made
+/// by the same halvings are identical numbers, and a posture on a side is in the boxes of both
+/// sides, however much of these is cut off because it has no posture.
 class BoxTree {
  public:
   /// `lower` and `upper` are the limits of all boxes; where `turns`, both limits are the same
@@ -19,8 +20,8 @@ class BoxTree {
   /// boxes. Boxes with a common point are connected.
   std::vector<int> connect();
 
-  /// The index of a box that contains x; -1 if there is none.
-  int find(const Eigen::VectorXd& x) const;
+  /// The index of a box that contains x, or comes within `margin` of it; -1 if there is none.
+  int find(const Eigen::VectorXd& x, double margin = 0) const;
 
  private:
   struct Node {

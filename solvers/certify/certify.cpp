@@ -27,7 +27,8 @@ class BranchAndBound {
                  const CertifyOptions& options)
       : objective_(objective),
         options_(options),
-        halving_(objective, bound, options.threads, options.sink != nullptr),
+        halving_(objective, bound,
+                 {.threads = options.threads, .records = options.sink != nullptr}),
         left_out_(bound.left_out()),
         start_(std::chrono::steady_clock::now()) {
     result_.best = incumbent;

@@ -26,8 +26,8 @@ std::unique_ptr<CertifiedBox> half(const CertifiedBox& parent, bool second) {
 
 }  // namespace
 
-Halving::Halving(const Objective& objective, const Bound& bound, int threads, bool records)
-    : objective_(objective), bound_(bound), threads_(threads), records_(records) {}
+Halving::Halving(const Objective& objective, const Bound& bound, const HalvingOptions& options)
+    : objective_(objective), bound_(bound), options_(options) {}
 
 std::unique_ptr<CertifiedBox> Halving::root(double low, double high) {
   auto root = std::make_unique<CertifiedBox>();
@@ -42,7 +42,7 @@ std::unique_ptr<CertifiedBox> Halving::root(double low, double high) {
 CertifiedBoxes Halving::halves(const CertifiedBoxes& parents, double low,
                                const std::function<bool()>& ended) {
   CertifiedBoxes children(2 * parents.size());
-  parallel_for(threads_, static_cast<long>(parents.size()), [&](long i) {
+  parallel_for(options_.threads, static_cast<long>(parents.size()), [&](long i) {
     const auto at = static_cast<std::size_t>(i);
     for (const bool second : {false, true}) {
       const std::size_t place = 2 * at + (second ? 1 : 0);
@@ -73,12 +73,16 @@ void Halving::bound_one(CertifiedBox& box, double low) {
   if (!bound) bound = bound_.clone();
   // Without a value so far, uses a number that no value is below: a ceiling bounds both signs.
   box.low = std::isfinite(low) ? low : -bound_.ceiling();
-  if (bound->shrink(box.lower, box.upper, records_ ? &box.cuts : nullptr)) {
+  const Eigen::Index r = options_.cells ? objective_.dimension() : 0;
+  const Eigen::VectorXd lower = box.lower.head(r), upper = box.upper.head(r);
+  if (bound->shrink(box.lower, box.upper, options_.records ? &box.cuts : nullptr)) {
     bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
   } else {
     box.proof.kind = BoxProof::Kind::kNoPosture;
     box.proof.high = -kInfinity;
   }
+  box.lower.head(r) = lower;
+  box.upper.head(r) = upper;
   const std::lock_guard<std::mutex> guard(mutex_);
   free_.push_back(std::move(bound));
 }

@@ -13,11 +13,17 @@ namespace maxwrench {
 
 using CertifiedBoxes = std::vector<std::unique_ptr<CertifiedBox>>;
 
+struct HalvingOptions {
+  int threads = 1;
+  bool records = false;  ///< boxes store the slices cut off them
+  /// Boxes keep their sides along theta_r, whatever slices are cut off: they are cells of a grid.
+  bool cells = false;
+};
+
 /// Halves boxes and bounds them on several threads, each with a bound of its own.
 class Halving {
  public:
-  /// `records`: boxes store the slices cut off them.
-  Halving(const Objective& objective, const Bound& bound, int threads, bool records);
+  Halving(const Objective& objective, const Bound& bound, const HalvingOptions& options);
 
   /// The box of theta_r and of the dependent coordinates, widened by the tolerance of limits, given
   /// that no value exceeds `high`.
@@ -35,8 +41,7 @@ class Halving {
 
   const Objective& objective_;
   const Bound& bound_;
-  int threads_;
-  bool records_;
+  const HalvingOptions options_;
   long last_id_ = 0;  ///< the root's
   std::mutex mutex_;
   std::vector<std::unique_ptr<Bound>> free_;

@@ -5,6 +5,7 @@
 #include "lib/math/rotated.h"
 #include "maxwrench/version.h"
 #include "solvers/certify/bound/loop_posture.h"
+#include "solvers/certify/box_coordinates.h"
 #include "verify/equations.h"
 #include "verify/model.h"
 
@@ -13,26 +14,6 @@ namespace maxwrench {
 namespace {
 
 using Node = CertificateTree::Node;
-
-/// [theta_r; dependent joints; joints of a second arm; yaw of the base], in the order of
-/// `PostureCoordinates`.
-Eigen::VectorXd coordinates_of(const Problem& problem, const PostureCoordinates& coordinates,
-                               const Posture& posture) {
-  Eigen::VectorXd x(coordinates.count());
-  for (std::size_t i = 0; i < coordinates.of_joint.size(); ++i) {
-    const int at = coordinates.of_joint[i];
-    if (at < 0) continue;
-    x[coordinates.variables[static_cast<std::size_t>(at)].coordinate] =
-        posture.q[static_cast<Eigen::Index>(i)];
-  }
-  if (coordinates.has_yaw()) {
-    const Eigen::Matrix3d R = problem.robot.mount.R.transpose() * posture.base.R;
-    const auto at = static_cast<std::size_t>(coordinates.yaw);
-    x[coordinates.variables[at].coordinate] = std::atan2(R(1, 0), R(0, 0));
-  }
-  x.head(posture.theta_r.size()) = posture.theta_r;
-  return x;
-}
 
 /// The scenario that decides at the posture of an answer.
 std::vector<double> decides_of(const Problem& problem, const Answer& answer) {
@@ -163,7 +144,7 @@ ProofCertificate claim_of(const Answer& answer) {
   proof.wrench = answer.choice.wrench;
   proof.collision = problem.robot.collision != nullptr;
   proof.digest = digest(problem);
-  proof.x = coordinates_of(problem, PostureCoordinates(problem), answer.posture);
+  proof.x = BoxCoordinates(problem).of(answer.posture);
   proof.value = answer.capability.beta;
   proof.u = answer.capability.u;
   proof.h = answer.capability.h;

@@ -116,6 +116,10 @@ double pure_ceiling(const Problem& problem, const Vector6d& c, const Zonotope& s
 /// bear.
 double braced_ceiling(const Problem& problem);
 
+/// `make_capability_bound` without a coordinate that is left out: boxes are cut along all of them.
+std::unique_ptr<Bound> make_bound_of_all_coordinates(const Problem& problem,
+                                                     const std::string& measure, Wrench wrench);
+
 /// Returns -infinity for boxes throughout which two bodies collide, else `high`. For each pair of
 /// bodies, a point of one body's core moves along a multi-affine path in the axes of the other's
 /// link. The other's core, with its reach, is convex: if it contains all control points of the

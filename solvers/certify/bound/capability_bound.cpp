@@ -70,10 +70,8 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
   return any ? make_any_wrench_bound(problem) : make_pure_bound(problem, measure, left_out);
 }
 
-}  // namespace
-
-std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::string& measure,
-                                             Wrench wrench) {
+std::unique_ptr<Bound> make_bound(const Problem& problem, const std::string& measure, Wrench wrench,
+                                  std::optional<int> left_out) {
   if (problem.motion) {
     throw std::invalid_argument(problem.name + ": got a task in time (" + problem.type() +
                                 "), expected a static task for a proof");
@@ -83,9 +81,20 @@ std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::
     throw std::invalid_argument(problem.name + ": got a chain that moves '" + joint.name +
                                 "' by a gear, expected none for a proof");
   }
-  const std::optional<int> left_out = left_out_coordinate(problem, measure, wrench);
   return std::make_unique<CapabilityBound>(measure_bound(problem, measure, wrench, left_out),
                                            make_collision_bound(problem, left_out));
+}
+
+}  // namespace
+
+std::unique_ptr<Bound> make_capability_bound(const Problem& problem, const std::string& measure,
+                                             Wrench wrench) {
+  return make_bound(problem, measure, wrench, left_out_coordinate(problem, measure, wrench));
+}
+
+std::unique_ptr<Bound> make_bound_of_all_coordinates(const Problem& problem,
+                                                     const std::string& measure, Wrench wrench) {
+  return make_bound(problem, measure, wrench, std::nullopt);
 }
 
 std::optional<int> left_out_coordinate(const Problem& problem, const std::string& measure,

@@ -43,6 +43,43 @@ TEST(WithinCommand, ListsClusters) {
   EXPECT_EQ(within["clusters"][0]["beta"], beta);
 }
 
+/// With dependent joints, boxes and clusters have these too, in the order of `coordinates`.
+TEST(WithinCommand, ListsDependentJoints) {
+  const TemporaryFolder folder;
+  const CommandResult result = run_maxwrench(
+      "certify gallery/panda/push --within 5% --resolution 0.2 --json --boxes boxes.csv --figure "
+      "boxes.svg",
+      folder.path());
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  const json proof = json::parse(result.out);
+  const json& within = proof["within"];
+  EXPECT_EQ(within["status"], "proven");
+  ASSERT_EQ(within["coordinates"].size(), 7U);
+  EXPECT_EQ(within["coordinates"][0], "panda_joint3");
+  EXPECT_EQ(within["coordinates"][1], "panda_joint1");
+  for (const json& cluster : within["clusters"]) {
+    ASSERT_EQ(cluster["lower"].size(), 7U);
+    if (cluster["x"].is_null()) continue;
+    EXPECT_EQ(cluster["x"][0], cluster["theta_r"][0]);
+    for (std::size_t i = 0; i < 7; ++i) {
+      EXPECT_LE(cluster["lower"][i], cluster["x"][i].get<double>() + 1e-7);
+      EXPECT_GE(cluster["upper"][i], cluster["x"][i].get<double>() - 1e-7);
+    }
+  }
+  EXPECT_EQ(within["clusters"][0]["beta"], proof["beta"]);
+  const std::string rows = read_text(folder.path() / "boxes.csv");
+  EXPECT_EQ(rows.rfind("lower_1,lower_2,lower_3,lower_4,lower_5,lower_6,lower_7,upper_1,", 0), 0U);
+  EXPECT_NE(read_text(folder.path() / "boxes.svg").find("joint7"), std::string::npos);
+}
+
+TEST(WithinCommand, RejectsSecondContacts) {
+  for (const char* words : {"certify planar/two_arms", "view planar/two_arms", "view fixed/push"}) {
+    const CommandResult result = run_maxwrench(std::string(words) + " --within 1%");
+    EXPECT_EQ(result.exit_status, 2) << words;
+    EXPECT_NE(result.err.find("--within: got "), std::string::npos) << result.err;
+  }
+}
+
 /// The gap is a tenth of the share at most, however it is written.
 TEST(WithinCommand, ReadsShares) {
   for (const char* share : {"0.1%", "'0.1 %'", "0.001", "1e-3"}) {

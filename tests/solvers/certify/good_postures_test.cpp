@@ -5,11 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "maxwrench/load.h"
-#include "maxwrench/posture.h"
-#include "maxwrench/solve.h"
-#include "maxwrench/strategies.h"
-#include "solvers/certify/certify.h"
+#include "tests/support/good_postures.h"
 #include "tests/support/multimodal.h"
 #include "tests/support/refusals.h"
 #include "tests/support/support.h"
@@ -29,40 +25,6 @@ GoodPostures list(const Multimodal& multimodal, const GoodOptions& options) {
   MultimodalObjective objective(multimodal);
   return find_good_postures(objective, MultimodalBound(multimodal),
                             {multimodal.peaks.front(), multimodal.top}, multimodal.top, options);
-}
-
-bool holds(const GoodBox& box, const Eigen::VectorXd& x) {
-  return (x.array() >= box.lower.array()).all() && (x.array() <= box.upper.array()).all();
-}
-
-/// Of the first box that holds x; -1: none.
-int cluster_at(const GoodPostures& good, const Eigen::VectorXd& x) {
-  for (const GoodBox& box : good.boxes) {
-    if (holds(box, x)) return box.cluster;
-  }
-  return -1;
-}
-
-/// What is true of every list.
-void expect_sound(Objective& objective, const GoodPostures& good, const GoodOptions& options) {
-  for (const GoodBox& box : good.boxes) {
-    EXPECT_GE(box.high, good.least);
-    if (good.status == Status::kProven) {
-      EXPECT_LE((box.upper - box.lower).maxCoeff(), options.resolution * (1 + 1e-8));
-    }
-    EXPECT_TRUE((box.lower.array() >= objective.lower().array()).all());
-    EXPECT_TRUE((box.upper.array() <= objective.upper().array()).all());
-  }
-  double last = kInfinity;
-  for (std::size_t i = 0; i < good.clusters.size(); ++i) {
-    const Cluster& cluster = good.clusters[i];
-    EXPECT_LE(cluster.best.value, last);
-    last = cluster.best.value;
-    if (last == -kInfinity) continue;
-    EXPECT_EQ(cluster_at(good, cluster.best.theta_r), static_cast<int>(i));
-    EXPECT_EQ(objective.evaluate(cluster.best.theta_r), last);
-    EXPECT_LE(last, cluster.high + 1e-9 * std::abs(last));
-  }
 }
 
 /// Within 10 % of the top, 1, are squares of half side 0.1 around the peaks.
@@ -182,107 +144,6 @@ TEST(GoodPostures, AreAShareOfTheSize) {
   ASSERT_EQ(good.clusters.size(), 1U);
   EXPECT_NEAR(good.clusters[0].lower[0], 0, options.resolution);
   EXPECT_NEAR(good.clusters[0].upper[0], 0.4, options.resolution);
-}
-
-/// A problem, its best posture and the list of all good ones.
-struct Listed {
-  Problem problem;
-  std::unique_ptr<Objective> objective;
-  CertifyResult proof;
-
-  explicit Listed(const char* name) : problem(load_problem(name)) {
-    objective = make_capability_objective(problem, Wrench::kPure, [this] {
-      return find_measure("linf_polytope").make(problem, find_wrench_solver("facets").make());
-    });
-    SearchOptions search;
-    search.start = problem.theta_r_default;
-    const SearchResult found = find_search(general_search()).make()->maximize(*objective, search);
-    CertifyOptions options;
-    proof = certify(*objective, *bound(), {found.theta_r, found.value}, options);
-  }
-  Listed(const Listed&) = delete;
-
-  std::unique_ptr<Bound> bound() const {
-    return make_capability_bound(problem, "linf_polytope", Wrench::kPure);
-  }
-  GoodPostures list(const GoodOptions& options) const {
-    return find_good_postures(*objective, *bound(), proof.best, proof.bound, options);
-  }
-};
-
-/// Every posture of a fine grid that is within 1 % lies in a box.
-TEST(GoodPostures, SLOW_OfTheWholePlaneAreListed) {
-  const Listed at("planar/force");
-  const GoodOptions options;
-  const GoodPostures good = at.list(options);
-  EXPECT_EQ(good.status, Status::kProven);
-  expect_sound(*at.objective, good, options);
-  EXPECT_TRUE(good.holds(good.clusters.front()));
-  const int steps = 1000;
-  int found = 0;
-  for (int i = 0; i <= steps; ++i) {
-    for (int j = 0; j <= steps; ++j) {
-      const Eigen::Array2d part = Eigen::Array2d(i, j) / steps;
-      const Eigen::VectorXd& lower = at.problem.theta_r_min;
-      const Eigen::VectorXd x = lower.array() + part * (at.problem.theta_r_max - lower).array();
-      if (at.objective->evaluate(x) < good.least) continue;
-      ++found;
-      EXPECT_GE(cluster_at(good, x), 0) << x.transpose();
-    }
-  }
-  EXPECT_GT(found, steps / 50);
-}
-
-/// Random walks through what is within 1 % never leave the boxes; they begin where local searches
-/// by random steps come that near.
-TEST(GoodPostures, SLOW_OfAVehicleAreListed) {
-  const Listed at("uvms/lift");
-  GoodOptions options;
-  options.resolution = 0.1;
-  const GoodPostures good = at.list(options);
-  EXPECT_EQ(good.status, Status::kProven);
-  expect_sound(*at.objective, good, options);
-  Random random(7);
-  int arrived = 0, found = 0;
-  for (int start = 0; start < samples(200); ++start) {
-    Eigen::VectorXd x = start == 0 ? at.proof.best.theta_r : random_theta_r(at.problem, random);
-    double value = at.objective->evaluate(x);
-    for (int step = 0; step < 2000; ++step) {
-      const double size = std::pow(10, random.uniform(-3.5, 0));
-      Eigen::VectorXd next = x;
-      for (double& q : next) q += random.uniform(-size, size);
-      next = next.cwiseMax(at.problem.theta_r_min).cwiseMin(at.problem.theta_r_max);
-      const double there = at.objective->evaluate(next);
-      if (there < std::min(value, good.least)) continue;
-      x = next;
-      value = there;
-      if (value < good.least) continue;
-      ++found;
-      ASSERT_GE(cluster_at(good, x), 0) << x.transpose();
-    }
-    arrived += value >= good.least ? 1 : 0;
-  }
-  EXPECT_GE(arrived, 3);
-  EXPECT_GE(found, samples(1000));
-}
-
-TEST(GoodPostures, SLOW_AreTheSameAtAnyThreadCount) {
-  const Listed at("uvms/lift");
-  std::vector<std::vector<double>> all;
-  for (const int threads : {1, 3}) {
-    GoodOptions options;
-    options.resolution = 0.2;
-    options.threads = threads;
-    const GoodPostures good = at.list(options);
-    auto& of_run = all.emplace_back();
-    for (const GoodBox& box : good.boxes) {
-      for (const double value : {box.lower.sum(), box.high, double(box.cluster)}) {
-        of_run.push_back(value);
-      }
-    }
-    for (const Cluster& cluster : good.clusters) of_run.push_back(cluster.best.value);
-  }
-  EXPECT_EQ(all[0], all[1]);
 }
 
 }  // namespace
