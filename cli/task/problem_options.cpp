@@ -17,7 +17,6 @@
 #include "problems/loader/block.h"
 #include "problems/loader/urdf_tree.h"
 #include "problems/make/posture.h"
-#include "problems/make/theta_r.h"
 #include "solvers/solve/format.h"
 
 namespace maxwrench {

@@ -13,8 +13,8 @@
 #include "problems/loader/robot_choices.h"
 #include "problems/loader/robot_srdf.h"
 #include "problems/loader/urdf_tree.h"
+#include "problems/make/posture.h"
 #include "problems/make/robot.h"
-#include "problems/make/theta_r.h"
 
 namespace maxwrench {
 namespace {

@@ -143,6 +143,32 @@ Problem make_at_first(TaskSpec& task, const std::vector<Eigen::VectorXd>& postur
 
 }  // namespace
 
+Eigen::VectorXd joints_at_posture(const TaskSpec& task) {
+  return joints_by_name("pose.joints.", *task.posture, task.robot);
+}
+
+Eigen::VectorXd joints_by_name(const std::string& start, const std::map<std::string, double>& named,
+                               const Robot& robot) {
+  Eigen::VectorXd q = resting_joints(robot);
+  for (const auto& [name, position] : named) {
+    const int found = find_joint(robot, name);
+    const std::string key = start + name;
+    if (found < 0 || robot.joints[static_cast<std::size_t>(found)].gear) {
+      std::vector<std::string> names;
+      for (const Joint& joint : robot.joints) {
+        if (!joint.gear) names.push_back(joint.name);
+      }
+      throw BadValue(key, "an unknown key",
+                     names.empty() ? "none: no joint of the robot moves"
+                                   : fmt::format("a joint that moves: {}", fmt::join(names, ", ")));
+    }
+    require_finite(key, position);
+    q[found] = position;
+  }
+  apply_gears(robot, q);
+  return q;
+}
+
 Problem make_at_some_posture(TaskSpec task) {
   Mobility mobility(task.robot, find_end_effector("end_effector", task.end_effector, task.robot));
   std::vector<Eigen::VectorXd> postures = best_first(task.robot, mobility);

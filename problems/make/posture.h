@@ -13,6 +13,15 @@ namespace maxwrench {
 std::map<std::string, double> named_posture(const Robot& robot, std::string_view key,
                                             const std::string& name);
 
+/// The positions of all joints in the posture of a task. Rejects names that are not of joints that
+/// move.
+Eigen::VectorXd joints_at_posture(const TaskSpec& task);
+
+/// The positions of all joints from those of some, by name, whose key begins with `key`. Others
+/// rest.
+Eigen::VectorXd joints_by_name(const std::string& key, const std::map<std::string, double>& named,
+                               const Robot& robot);
+
 /// Makes a static task at the pose of some posture, for whoever gives none: that at rest if the end
 /// effector can move from there in all its directions without a collision; else, of random
 /// postures in the middle half of the joints' limits, the one from which it moves best.

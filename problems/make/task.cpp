@@ -13,6 +13,7 @@
 #include "problems/make/contact.h"
 #include "problems/make/free_pose.h"
 #include "problems/make/motion_task.h"
+#include "problems/make/posture.h"
 #include "problems/make/scenarios.h"
 #include "problems/make/theta_r.h"
 

@@ -14,6 +14,7 @@
 #include "lib/robot/gears.h"
 #include "maxwrench/posture.h"
 #include "problems/make/bad_value.h"
+#include "problems/make/posture.h"
 #include "problems/make/redundant_joints.h"
 #include "problems/make/transfer_ends.h"
 
@@ -263,32 +264,6 @@ void require_theta_r_within(std::string_view key, const Eigen::VectorXd& values,
                    fmt::format("{} within {} .. {}", problem.theta_r_name(i),
                                problem.theta_r_min[i], problem.theta_r_max[i]));
   }
-}
-
-Eigen::VectorXd joints_at_posture(const TaskSpec& task) {
-  return joints_by_name("pose.joints.", *task.posture, task.robot);
-}
-
-Eigen::VectorXd joints_by_name(const std::string& start, const std::map<std::string, double>& named,
-                               const Robot& robot) {
-  Eigen::VectorXd q = resting_joints(robot);
-  for (const auto& [name, position] : named) {
-    const int found = find_joint(robot, name);
-    const std::string key = start + name;
-    if (found < 0 || robot.joints[static_cast<std::size_t>(found)].gear) {
-      std::vector<std::string> names;
-      for (const Joint& joint : robot.joints) {
-        if (!joint.gear) names.push_back(joint.name);
-      }
-      throw BadValue(key, "an unknown key",
-                     names.empty() ? "none: no joint of the robot moves"
-                                   : fmt::format("a joint that moves: {}", fmt::join(names, ", ")));
-    }
-    require_finite(key, position);
-    q[found] = position;
-  }
-  apply_gears(robot, q);
-  return q;
 }
 
 void set_joints(const TaskSpec& task, Problem& problem) {

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -11,15 +10,6 @@ namespace maxwrench {
 
 /// The joints' names, separated by commas.
 std::string names_of(const Robot& robot, const std::vector<int>& joints);
-
-/// The positions of all joints in the posture of a task. Rejects names that are not of joints that
-/// move.
-Eigen::VectorXd joints_at_posture(const TaskSpec& task);
-
-/// The positions of all joints from those of some, by name, whose key begins with `key`. Others
-/// rest.
-Eigen::VectorXd joints_by_name(const std::string& key, const std::map<std::string, double>& named,
-                               const Robot& robot);
 
 /// Sets the redundant joints, their limits and default, and the guess for the dependent
 /// coordinates. `problem` must have its robot, end effector and pose.

@@ -6,6 +6,7 @@
 
 #include "lib/robot/chain.h"
 #include "problems/make/bad_value.h"
+#include "problems/make/posture.h"
 #include "problems/make/theta_r.h"
 
 namespace maxwrench {

@@ -33,8 +33,7 @@ class AllPostures {
       set_posture(posture, program_);
       measure_->evaluate(posture, program_, true, capability_);
       if (capability_.status != Status::kOptimal || !satisfies_program(capability_)) continue;
-      postures.push_back(
-          {coordinates_.within_a_turn(coordinates_.of(posture)), capability_.beta});
+      postures.push_back({coordinates_.within_a_turn(coordinates_.of(posture)), capability_.beta});
     }
   }
 

@@ -177,8 +177,8 @@ class Clusters {
     return found < 0 ? -1 : result_.boxes[static_cast<std::size_t>(found)].cluster;
   }
 
-  /// Sets the cluster's best: the best known posture, the best one at these points, or what a search
-  /// from there finds.
+  /// Sets the cluster's best: the best known posture, the best one at these points, or what a
+  /// search from there finds.
   void represent(Cluster& cluster, std::vector<int>& members) {
     const int number = box(members.front()).cluster;
     const Inside inside = [this, number](const auto& x) { return cluster_at(x) == number; };

@@ -22,7 +22,8 @@ inline int cluster_at(const GoodPostures& good, const Eigen::VectorXd& x) {
 }
 
 /// What is true of every list.
-inline void expect_sound(Objective& objective, const GoodPostures& good, const GoodOptions& options) {
+inline void expect_sound(Objective& objective, const GoodPostures& good,
+                         const GoodOptions& options) {
   for (const GoodBox& box : good.boxes) {
     EXPECT_GE(box.high, good.least);
     if (good.status == Status::kProven) {

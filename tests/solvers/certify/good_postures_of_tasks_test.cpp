@@ -1,5 +1,3 @@
-#include "solvers/certify/good_postures.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -10,6 +8,7 @@
 #include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/box_coordinates.h"
 #include "solvers/certify/certify.h"
+#include "solvers/certify/good_postures.h"
 #include "tests/support/good_postures.h"
 #include "tests/support/loops.h"
 #include "tests/support/support.h"
@@ -161,8 +160,8 @@ TEST_P(GoodDependents, HaveAllTheirIkSolutionsListed) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Tasks, GoodDependents,
-                         testing::Values("mobile/push", "random, fixed",
-                                         "random, yaw", "random, x y z yaw", "random, parked"),
+                         testing::Values("mobile/push", "random, fixed", "random, yaw",
+                                         "random, x y z yaw", "random, parked"),
                          loop_name);
 
 /// The first three joints of `fixed/push` meet in a point. With q_1 and q_3 half a turn further and

@@ -137,7 +137,7 @@ TEST(SceneGoodPostures, RejectsWhatHasNoList) {
     EXPECT_EQ(result.out, "");
   };
   rejects("uvms/valve_trajectory --within 1%", "--within: got uvms/valve_trajectory, a task in");
-  rejects("mobile/push --within 1%", "--within: got a task with dependent joints");
+  rejects("mobile/push --within 1%", "--within: got mobile/push, a task with dependent joints");
   rejects("planar/force --within 0", "--within");
   rejects("planar/force --within nan", "--within");
   rejects("planar/force --resolution 0.1", "--resolution");
