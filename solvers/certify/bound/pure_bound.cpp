@@ -95,6 +95,19 @@ class PureBound final : public Bound {
     if (ellipsoid_) aim(lower, upper, low, high, proof);
     if (proof.high <= low || entries_.size() == 0) return;
     improve_by_rounds(low, high, proof);
+    if (proof.high == kInfinity && found_by_program()) try_rows(low, high, proof);
+  }
+
+  /// Where no value is known to be too large, the program can end at a nu so large that its
+  /// rounding spoils any bound. One row alone bounds the value where its entry of a has one sign.
+  void try_rows(double low, double high, BoxProof& proof) {
+    nu_.setZero(model_->m);
+    for (Eigen::Index row = 0; row < rows(); ++row) {
+      for (const double sign : {1.0, -1.0}) {
+        lambda_ = sign * Eigen::VectorXd::Unit(rows(), row);
+        take(value(low, high), proof);
+      }
+    }
   }
 
   static constexpr int kMostRounds = 24;

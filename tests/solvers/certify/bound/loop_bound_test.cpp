@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "maxwrench/bound.h"
 #include "maxwrench/load.h"
@@ -106,6 +107,21 @@ Problem braced() {
   for (Joint& joint : problem.robot.joints) joint.effort_max *= 1000;
   complete_actuation(problem.robot);
   return problem;
+}
+
+/// In a box of this size around a singular posture, the program without a limit of the value ends
+/// at multipliers of equations whose rounding spoils every bound. The row of the shoulder alone
+/// bounds it: its lever is 0.92 m, its effort 330 N m, and the weight of the arm loads it by less
+/// than that.
+TEST(LoopBound, IsFiniteAtASingularPosture) {
+  const Problem problem = load_problem("gallery/ur10/lift");
+  const auto bound = make_capability_bound(problem, "linf_polytope", Wrench::kPure);
+  Eigen::VectorXd x(6);
+  x << std::numbers::pi, -std::numbers::pi, 0, 0, std::numbers::pi / 2, -std::numbers::pi / 2;
+  BoxProof proof;
+  bound->evaluate(x.array() - 1e-6, x.array() + 1e-6, 0, kInfinity, proof);
+  EXPECT_EQ(proof.kind, BoxProof::Kind::kMultiplier);
+  EXPECT_LE(proof.high, 2 * 330 / 0.92);
 }
 
 TEST(LoopBound, IsNoCeilingOfWhatBracesItself) {
