@@ -115,8 +115,9 @@ PostureSource::PostureSource(const Problem& problem, const std::string& measure,
       model_(problem),
       program_(make_wrench_program(problem, wrench)),
       measure_(find_measure(measure).make(
-          problem, find_wrench_solver(problem.contact || program_.columns() > 1 ? "condensed" : "facets")
-                       .make())) {}
+          problem,
+          find_wrench_solver(problem.contact || program_.columns() > 1 ? "condensed" : "facets")
+              .make())) {}
 
 const ValuedPosture* PostureSource::draw(Random& random) {
   model_.evaluate(random_theta_r(problem_, random));

@@ -179,7 +179,7 @@ std::unique_ptr<Bound> make_free_bound(const Problem& problem) {
                                 ": wrench: got 'any' with more components than the robot has "
                                 "coordinates, expected pure for a proof: nothing limits them");
   }
-  if (!FreePoints::few_patterns(*model, set->actuators(), columns->k)) {
+  if (!FreePoints::few_patterns(*model, set->actuators())) {
     throw std::invalid_argument(problem.name +
                                 ": wrench: got 'any', expected pure for a proof with so many "
                                 "actuators and coordinates");

@@ -12,7 +12,7 @@ namespace maxwrench {
 namespace {
 
 constexpr int kCentreSteps = 60;
-constexpr double kSmallShare = 1e-3;   ///< of the largest term of s(lambda)
+constexpr double kSmallShare = 1e-3;  ///< of the largest term of s(lambda)
 constexpr double kLeastWeight = 1e-5;
 constexpr double kRidge = 1e-13;
 
@@ -57,6 +57,7 @@ FreePoints::FreePoints(std::shared_ptr<const FreeColumns> columns, const LoopMod
       n_(model.n),
       k_(columns_->k),
       m_(set_->actuators()),
+      rho_in_patterns_(few_patterns(model, m_ + k_)),
       points_(columns_->parts.size()),
       limits_(*set_, all_sizes(model, columns_->sizes)),
       centre_(Eigen::MatrixXd::Zero(n_ - k_, m_), set_->u_min, set_->u_max, 2),
@@ -70,8 +71,8 @@ FreePoints::FreePoints(std::shared_ptr<const FreeColumns> columns, const LoopMod
   centre_.set_points(2);
 }
 
-bool FreePoints::few_patterns(const LoopModel& model, Eigen::Index actuators, Eigen::Index k) {
-  const double patterns = std::pow(2.0, static_cast<double>(actuators + k));
+bool FreePoints::few_patterns(const LoopModel& model, Eigen::Index numbers) {
+  const double patterns = std::pow(2.0, static_cast<double>(numbers));
   return 2.0 * static_cast<double>(model.size) * patterns < std::numeric_limits<int>::max();
 }
 
@@ -181,6 +182,7 @@ int FreePoints::pattern(Eigen::Index v) const {
     for (Eigen::Index j = 0; j < k_; ++j) slope -= PB_(j, i) * q_[static_cast<std::size_t>(j)][v];
     pattern |= (slope > 0 ? 1 : 0) << bit++;
   }
+  if (!rho_in_patterns_) return pattern;
   for (const Eigen::VectorXd& q : q_) pattern |= (q[v] < 0 ? 1 : 0) << bit++;
   return pattern;
 }
@@ -189,7 +191,9 @@ void FreePoints::add(Eigen::Index v, int pattern, Eigen::VectorXd& load) {
   for (Eigen::Index i = 0; i < m_; ++i) u_[i] = pattern >> i & 1 ? set_->u_max[i] : set_->u_min[i];
   h_ = -P_tau_;
   h_.noalias() += PB_ * u_;
-  for (Eigen::Index j = 0; j < k_; ++j) h_[j] += pattern >> (m_ + j) & 1 ? R_[j] : -R_[j];
+  for (Eigen::Index j = 0; rho_in_patterns_ && j < k_; ++j) {
+    h_[j] += pattern >> (m_ + j) & 1 ? R_[j] : -R_[j];
+  }
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const FreeColumns::Part& part = columns_->parts[i];
     const auto at = points_[i]->col(v / part.repeat % part.f.size());

@@ -41,11 +41,12 @@ struct FreeColumns {
 /// lambda'B u - lambda'A h.
 class FreePoints {
  public:
-  /// The patterns of u and rho must be few: `few_patterns`.
+  /// The patterns of u must be few: `few_patterns`. If those of u and rho are many, points have
+  /// rho = 0.
   FreePoints(std::shared_ptr<const FreeColumns> columns, const LoopModel& model,
              std::shared_ptr<const Zonotope> set);
-  /// Whether numbers of control points with patterns of u and rho are `int`.
-  static bool few_patterns(const LoopModel& model, Eigen::Index actuators, Eigen::Index k);
+  /// Whether numbers of control points with patterns of so many numbers are `int`.
+  static bool few_patterns(const LoopModel& model, Eigen::Index numbers);
 
   /// For values in [low, high], either of which may be infinite. Returns false if nothing limits h.
   /// The box of `loads` has been set; its rows are those of the centre afterwards.
@@ -62,7 +63,7 @@ class FreePoints {
   /// The pattern of the u and rho with the largest lambda'B u - lambda'A h at control point v,
   /// after `weigh`.
   int pattern(Eigen::Index v) const;
-  /// Adds A h of a pattern at control point v.
+  /// Adds A h of a pattern at control point v, after `set`.
   void add(Eigen::Index v, int pattern, Eigen::VectorXd& load);
   /// Magnitudes of B u - A h (n).
   const Eigen::VectorXd& sizes() const { return sizes_; }
@@ -75,6 +76,7 @@ class FreePoints {
   const std::shared_ptr<const FreeColumns> columns_;
   const std::shared_ptr<const Zonotope> set_;
   const Eigen::Index n_, k_, m_;
+  const bool rho_in_patterns_;
   std::vector<ControlPoints> corners_;
   std::vector<const Eigen::MatrixXd*> points_;
   FreeLimits limits_;

@@ -101,37 +101,6 @@ TEST_P(Certified, IsProven) {
   EXPECT_NEAR(at.objective()->evaluate(result.best.theta_r), result.best.value, 1e-12 * known.beta);
 }
 
-/// One joint is redundant, so all of theta_r can be tried, with all IK solutions.
-TEST(Certify, SLOW_AnyWrenchesWithDependentJointsAgreeWithDenseSearch) {
-  for (const char* name : {"fixed/push", "gallery/panda/push"}) {
-    constexpr int kPlaces = 4000;
-    ProofCase at(name, "linf_polytope", Wrench::kAny);
-    at.problem.robot.collision = nullptr;
-    const auto objective = at.objective();
-    const double from = at.problem.theta_r_min[0], to = at.problem.theta_r_max[0];
-    double most = -kInfinity;
-    for (int i = 0; i <= kPlaces; ++i) {
-      const Eigen::VectorXd theta_r = Eigen::VectorXd::Constant(1, from + (to - from) * i / kPlaces);
-      most = std::max(most, objective->evaluate(theta_r));
-    }
-    const CertifyResult result = at.prove(at.searched(), to_gap(1e-3));
-    EXPECT_EQ(result.status, Status::kProven) << result.reason.c_str();
-    EXPECT_GE(result.bound, most);
-    EXPECT_NEAR(result.best.value, most, 2e-3 * most) << name;
-    EXPECT_LE(result.bound, result.best.value * (1 + 1.000001e-3));
-  }
-}
-
-/// The bound of two redundant joints falls as fast as that of one.
-TEST(Certify, SLOW_AnyWrenchesOfAnArmOnWheelsReachWhatTheWheelsGive) {
-  ProofCase at("mobile/push", "linf_polytope", Wrench::kAny);
-  const CertifyResult result = at.prove(at.searched(), to_gap(3e-3));
-  EXPECT_EQ(result.status, Status::kProven) << result.reason.c_str();
-  const double most = 4 * 135 / std::numbers::sqrt2;  // of wheels at 45 degrees to the push
-  EXPECT_NEAR(result.best.value, most, 1e-3 * most);
-  EXPECT_GE(result.bound, result.best.value);
-}
-
 /// The L2 polytope lies in the L-infinity polytope.
 TEST(Certify, OrdersTheMeasures) {
   ProofCase l2("planar/force", "l2_polytope", Wrench::kPure);

@@ -66,8 +66,8 @@ TEST(FreeLimits, HoldWhateverSolvesTheBalance) {
     limits.rest(P, A, off, R);
     for (int sample = 0; sample < 200; ++sample) {
       const Eigen::MatrixXd by = off.cwiseProduct(Eigen::MatrixXd::NullaryExpr(n, 2 + k, any));
-      const Eigen::VectorXd z = 1.1 * limits.Z().cwiseProduct(
-                                          Eigen::VectorXd::NullaryExpr(1 + k, any));
+      const Eigen::VectorXd z =
+          1.1 * limits.Z().cwiseProduct(Eigen::VectorXd::NullaryExpr(1 + k, any));
       const Eigen::VectorXd u = tau + by.col(0) + (A + by.rightCols(1 + k)) * z;
       if ((u.array() > set.u_max.array()).any() || (u.array() < set.u_min.array()).any()) continue;
       ++seen;
