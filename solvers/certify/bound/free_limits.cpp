@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kMargin = 1e-12;  ///< for rounding, as a share
 constexpr double kWider = 1e-3;    ///< what makes limits strict, as a share
+constexpr double kLeastReach = 1e-9;
 constexpr int kTightenings = 4;
 
 }  // namespace
@@ -47,12 +48,9 @@ bool FreeLimits::find(const Eigen::VectorXd& tau, const Eigen::MatrixXd& A,
   E_ -= Eigen::MatrixXd::Identity(columns, columns);
   E_ = E_.cwiseAbs().eval();
   E_.noalias() += P_.cwiseAbs() * (off + rounding_).rightCols(columns);
-  if (!solve(0)) {
-    if (!std::isfinite(most_t)) return false;
-    b_ += E_.col(0) * most_t;
+  if (!solve(0, 0)) {
+    if (!std::isfinite(most_t) || !solve(1, most_t)) return false;
     Z_[0] = most_t;
-    if (!solve(1)) return false;
-    b_ -= E_.col(0) * most_t;
   }
   for (int i = 0; i < kTightenings; ++i) {
     Z_[0] = std::min(Z_[0], most_t);
@@ -63,12 +61,13 @@ bool FreeLimits::find(const Eigen::VectorXd& tau, const Eigen::MatrixXd& A,
   return true;
 }
 
-/// Solves for the components of Z from one on. Returns false if it proves no limits.
-bool FreeLimits::solve(Eigen::Index from) {
+/// Solves for the components of Z from one on; those before it add their column of E times `known`.
+/// Returns false if it proves no limits.
+bool FreeLimits::solve(Eigen::Index from, double known) {
   const Eigen::Index count = E_.rows() - from;
   I_E_ = -E_.bottomRightCorner(count, count);
   I_E_.diagonal().array() += 1;
-  own_ = b_.tail(count).cwiseMax(1e-9);
+  own_ = (b_ + known * E_.col(0)).tail(count).cwiseMax(kLeastReach);
   next_ = I_E_.partialPivLu().solve(own_) * (1 + kWider);
   if (!(next_.array() > 0).all() || !next_.allFinite()) return false;
   own_.noalias() += E_.bottomRightCorner(count, count) * next_;

@@ -33,7 +33,7 @@ class FreeLimits {
 
  private:
   void find_inverse(const Eigen::MatrixXd& A);
-  bool solve(Eigen::Index from);
+  bool solve(Eigen::Index from, double known);
 
   const Zonotope& set_;
   Eigen::MatrixXd rounding_;  ///< of [tau A]
