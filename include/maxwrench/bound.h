@@ -116,8 +116,9 @@ class Bound {
 /// Makes the upper bound of a measure over the postures of a static problem.
 ///
 /// It supports the measures linf_polytope, l2_polytope and ellipsoid. `Wrench::kAny` requires
-/// linf_polytope, a base with as many free axes as there are wrench columns, no dependent joints
-/// and no second contact. The ellipsoid supports no forces of a second contact.
+/// linf_polytope, no second contact, and either dependent joints and no list of scenarios, or a
+/// base with as many free axes as there are wrench columns. The ellipsoid supports no forces of a
+/// second contact.
 ///
 /// @param problem  the task, which must outlive the bound
 /// @param measure  the name of the measure

@@ -43,8 +43,8 @@ struct Proof : Verdict {
 };
 
 /// Returns what keeps a task from having a certificate: forces of a second contact that the base
-/// does not determine, currents, or any wrenches of a list or with components that are not free.
-/// Empty if nothing does.
+/// does not determine, currents, or any wrenches of a list, with dependent joints or with
+/// components that are not free. Empty if nothing does.
 ///
 /// A base that moves along all six axes determines the forces of a contact that has all three and
 /// no limits, for linf_polytope and a single wrench.

@@ -155,6 +155,8 @@ std::string why_no_certificate(const Problem& task, Wrench wrench, const std::st
     if (!task.scenarios.empty()) return "a list with forces of a second contact";
   }
   if (wrench == Wrench::kAny && !task.scenarios.empty()) return "any wrenches of a list";
+  if (wrench == Wrench::kAny && !task.dependent.empty())
+    return "any wrenches with dependent joints";
   const auto free_axes = static_cast<Eigen::Index>(task.robot.base_axes.size());
   if (wrench == Wrench::kAny && task.W_any.cols() != free_axes) {
     return "any wrenches that leave out some components";

@@ -109,13 +109,15 @@ ContactForces forces_in_bound(const Problem& problem, const std::string& measure
 }
 
 PostureSource::PostureSource(const Problem& problem, const std::string& measure,
-                             ContactForces forces)
+                             ContactForces forces, Wrench wrench)
     : problem_(problem),
-      coordinates_(problem, forces, left_out_coordinate(problem, measure, Wrench::kPure)),
+      coordinates_(problem, forces, left_out_coordinate(problem, measure, wrench)),
       model_(problem),
-      program_(make_wrench_program(problem, Wrench::kPure)),
+      program_(make_wrench_program(problem, wrench)),
       measure_(find_measure(measure).make(
-          problem, find_wrench_solver(problem.contact ? "condensed" : "facets").make())) {}
+          problem,
+          find_wrench_solver(problem.contact || program_.columns() > 1 ? "condensed" : "facets")
+              .make())) {}
 
 const ValuedPosture* PostureSource::draw(Random& random) {
   model_.evaluate(random_theta_r(problem_, random));

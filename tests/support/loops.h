@@ -55,7 +55,7 @@ ContactForces forces_in_bound(const Problem& problem, const std::string& measure
 class PostureSource {
  public:
   PostureSource(const Problem& problem, const std::string& measure,
-                ContactForces forces = ContactForces::kShares);
+                ContactForces forces = ContactForces::kShares, Wrench wrench = Wrench::kPure);
 
   /// Null if a random theta_r has no posture, or the posture has no value.
   const ValuedPosture* draw(Random& random);

@@ -56,6 +56,13 @@ TEST_P(VerifyShipped, IsVerifiedAtAnyThreadCount) {
   }
 }
 
+/// The check knows no free components of the wrench where joints are dependent.
+TEST(Verify, RejectsAnyWrenchesWithDependentJoints) {
+  WrittenProof at("mobile/push", "linf_polytope", Wrench::kPure, 1e-2);
+  at.proof.wrench = Wrench::kAny;
+  EXPECT_THROW(verify(at.problem, at.proof, 1), std::invalid_argument);
+}
+
 /// Where the boxes ran out the claim is smaller, and as true.
 TEST(Verify, AcceptsABracket) {
   const WrittenProof at("uvms/lift", "linf_polytope", Wrench::kPure, 1e-3, 500);

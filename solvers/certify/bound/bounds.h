@@ -54,6 +54,21 @@ std::unique_ptr<Bound> make_pure_bound(const Problem& problem, const std::string
 ///             o_0 - mu'tau_0 + (o - A'mu)'u.
 std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem);
 
+/// For any wrenches with dependent joints. Let A(x) be J'W of the free components h across c. In
+/// addition to `make_pure_bound`, lambda'A h has to be taken into account, which no fixed lambda
+/// makes zero. With P, R and the centre m of the box as in `FreePoints`, the balance gives
+/// h = P (B u - tau_m) + rho, |rho| <= R. For fixed u, t and rho all terms are multi-affine, so for
+/// any lambda and nu no value in [low, high] of a posture in the box exceeds
+///
+///     U(lambda, nu) = max over control points v, t in {low, high}, u within limits and |rho| <= R
+///                     of t (1 - lambda'a_v) + lambda'B u - lambda'tau_v - nu'f_v
+///                        - lambda'A_v (P (B u - tau_m) + rho).
+///
+/// The multiplier is [lambda; nu]. A box in which nothing limits h has no bound. `low` and `high`
+/// are at most what limits t there, `FreeLimits`. Throws std::invalid_argument, with one line, for
+/// more free components than the robot has coordinates, and for too many actuators.
+std::unique_ptr<Bound> make_free_bound(const Problem& problem);
+
 /// For a disc of wrenches E z, |z| <= beta, with any wrenches across it: P = {z : some efforts
 /// balance E z and some free components} is convex, and beta is the least of its supports. So the
 /// support along any direction d is a bound, and no value in the box exceeds

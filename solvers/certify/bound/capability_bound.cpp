@@ -57,9 +57,14 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
     throw std::invalid_argument("wrench: got 'any', expected pure for a proof of measure " +
                                 measure);
   }
-  if (any && (problem.contact || !problem.dependent.empty())) {
+  if (any && problem.contact) {
     throw std::invalid_argument(
-        problem.name + ": wrench: got 'any', expected pure for a proof with dependent joints");
+        problem.name + ": wrench: got 'any', expected pure for a proof with a second contact");
+  }
+  if (any && !problem.dependent.empty() && !problem.scenarios.empty()) {
+    throw std::invalid_argument(
+        problem.name +
+        ": wrench: got 'any', expected pure for a proof of a list with dependent joints");
   }
   if (measure == "ellipsoid" && problem.contact_columns() > 0) {
     throw std::invalid_argument(problem.name +
@@ -67,7 +72,10 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
                                 "with forces of a second contact");
   }
   if (!problem.scenarios.empty()) return make_list_bound(problem, wrench);
-  return any ? make_any_wrench_bound(problem) : make_pure_bound(problem, measure, left_out);
+  if (!any || (problem.W_any.cols() == 1 && !problem.dependent.empty())) {
+    return make_pure_bound(problem, measure, left_out);
+  }
+  return problem.dependent.empty() ? make_any_wrench_bound(problem) : make_free_bound(problem);
 }
 
 std::unique_ptr<Bound> make_bound(const Problem& problem, const std::string& measure, Wrench wrench,

@@ -3,11 +3,9 @@
 #include "solvers/certify/bound/bounds.h"
 
 namespace maxwrench {
-namespace {
 
-/// Adds a part's values at their places on the grid of all coordinates.
-void spread_out(const LoopPart& part, const Eigen::VectorXd& values, Eigen::VectorXd& all) {
-  const Eigen::Index size = values.size(), repeat = part.repeat;
+void spread_out(Eigen::Index repeat, const Eigen::VectorXd& values, Eigen::VectorXd& all) {
+  const Eigen::Index size = values.size();
   if (repeat == 1) {
     Eigen::Map<Eigen::MatrixXd>(all.data(), size, all.size() / size).colwise() += values;
     return;
@@ -27,8 +25,6 @@ void spread_out(const LoopPart& part, const Eigen::VectorXd& values, Eigen::Vect
     }
   }
 }
-
-}  // namespace
 
 LoopBox::LoopBox(const LoopModel& model) : model_(model), points_(model.parts.size()) {
   for (const LoopPart& part : model.parts) corners_.emplace_back(part.f);
@@ -55,13 +51,13 @@ void LoopBox::weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& slopes
     own_.resize(count);
     for (Eigen::Index k = 0; k < count; ++k) own_[k] = all[part.rows[static_cast<std::size_t>(k)]];
     sum_.noalias() = P.topRows(count).transpose() * own_;
-    spread_out(part, sum_, g_);
+    spread_out(part.repeat, sum_, g_);
     if (part.kind != LoopPart::Kind::kLoads) continue;
     for (Eigen::Index k = 0; k < count; ++k) {
       own_[k] = slopes[part.rows[static_cast<std::size_t>(k)]];
     }
     sum_.noalias() = P.bottomRows(count).transpose() * own_;
-    spread_out(part, sum_, h_);
+    spread_out(part.repeat, sum_, h_);
   }
 }
 
@@ -79,6 +75,22 @@ void LoopBox::collect(const Values& values_of) {
       const int row = part.rows[static_cast<std::size_t>(k)];
       all[row] += values[k];
       if (part.kind == LoopPart::Kind::kLoads) a_[row] += values[count + k];
+    }
+  }
+}
+
+void LoopBox::deviations(Eigen::VectorXd& off_tau, Eigen::VectorXd& off_a) const {
+  off_tau.setZero(model_.n);
+  off_a.setZero(model_.n);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const LoopPart& part = model_.parts[i];
+    if (part.kind == LoopPart::Kind::kEquations) continue;
+    const auto count = static_cast<Eigen::Index>(part.rows.size());
+    for (Eigen::Index k = 0; k < count; ++k) {
+      const int row = part.rows[static_cast<std::size_t>(k)];
+      off_tau[row] += (points_[i]->row(k).array() - tau_[row]).abs().maxCoeff();
+      if (part.kind != LoopPart::Kind::kLoads) continue;
+      off_a[row] += (points_[i]->row(count + k).array() - a_[row]).abs().maxCoeff();
     }
   }
 }

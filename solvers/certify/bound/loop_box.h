@@ -4,6 +4,10 @@
 
 namespace maxwrench {
 
+/// Adds values at the points of a stretch of the chain at their places on the grid of all
+/// coordinates, `LoopPart::repeat`.
+void spread_out(Eigen::Index repeat, const Eigen::VectorXd& values, Eigen::VectorXd& all);
+
 /// The control points of a `LoopModel` over one box, on the grid of all coordinates.
 class LoopBox {
  public:
@@ -28,6 +32,9 @@ class LoopBox {
   void read(Eigen::Index v);
   /// Computes tau, a and f at x.
   void evaluate(const Eigen::VectorXd& x);
+  /// The largest |tau_v - tau| and |a_v - a| of each row over all control points v, with the last
+  /// tau and a that were computed.
+  void deviations(Eigen::VectorXd& off_tau, Eigen::VectorXd& off_a) const;
   const Eigen::VectorXd& tau() const { return tau_; }
   const Eigen::VectorXd& a() const { return a_; }
   const Eigen::VectorXd& f() const { return f_; }

@@ -238,6 +238,7 @@ void LoopPosture::set(const ExtendedVector& x) {
 /// Joints of the chain are loaded from the end effector's pose, all others from the base.
 void LoopPosture::set_loads(const Matrix3<Extended>& from_tip) {
   const Vector6<Extended> c = exact_turned(problem_, pose_, problem_.c);
+  const Matrix6X<Extended> W = exact_turned(problem_, pose_, W_);
   const Eigen::Index n = problem_.robot.velocities();
   const auto axes = static_cast<Eigen::Index>(problem_.robot.base_axes.size());
   loads_.resize(2 * n);
@@ -245,11 +246,13 @@ void LoopPosture::set_loads(const Matrix3<Extended>& from_tip) {
   kinematics_.jacobian(tip_, R_base_, J_);
   loads_.head(n) = tau_;
   loads_.tail(n) = J_.transpose() * c;
+  columns_ = J_.transpose() * W;
   kinematics_.gravity_and_buoyancy(from_tip, tau_);
   kinematics_.jacobian(tip_, from_tip, J_);
   const auto load = [&](int joint) {
     loads_[axes + joint] = tau_[axes + joint];
     loads_[n + axes + joint] = J_.col(axes + joint).dot(c);
+    columns_.row(axes + joint) = J_.col(axes + joint).transpose() * W;
   };
   if (coordinates_.resting) load(*coordinates_.resting);
   for (const int joint : coordinates_.joints) load(joint);

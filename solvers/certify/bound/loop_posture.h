@@ -93,10 +93,14 @@ class LoopPosture {
   /// Keeps references to both.
   LoopPosture(const Problem& problem, const LoopCoordinates& coordinates);
 
+  /// Other wrenches of the task, 6×k, whose J'W `columns` returns.
+  void carry(const Matrix6Xd& W) { W_ = W; }
   void set(const ExtendedVector& x);
 
   /// [tau_d; J'c], 2n.
   const ExtendedVector& loads() const { return loads_; }
+  /// J'W of `carry`, n×k.
+  const MatrixX<Extended>& columns() const { return columns_; }
   /// J_2'C_2 w_2, n, at t = 0; and its change per unit of t.
   ExtendedVector forces() const { return forces(w_); }
   ExtendedVector forces_by_t() const { return forces(v_); }
@@ -129,6 +133,8 @@ class LoopPosture {
   Matrix3<Extended> R_base_;
   ExtendedVector q_, loads_, tau_, w_, v_;
   Matrix6X<Extended> J_;
+  Matrix6Xd W_ = Matrix6Xd(6, 0);
+  MatrixX<Extended> columns_;
 };
 
 }  // namespace maxwrench

@@ -29,6 +29,8 @@ class MultiplierProgram {
     low_[k] = x_min;
     width_[k] = x_max - x_min;
   }
+  /// Changes the first rows of B.
+  void set_columns(const Eigen::MatrixXd& B) { A_.topLeftCorner(m_, B.rows()) = -B.transpose(); }
   void set_points(Eigen::Index count) { points_ = count; }
   Eigen::Index points() const { return points_; }
   /// The index of the first point in a basis.

@@ -96,7 +96,8 @@ TEST(CertifyCommand, RejectsInOneLine) {
   rejected("mobile/trajectory", "for a bound on trajectories");
   rejected("mobile/trajectory --theta-r 2.3,-2", "for a proof in time");
   rejected("dual_arm/bar_wall --measure ellipsoid", "got 'ellipsoid'");
-  rejected("fixed/push --wrench any", "dependent joints");
+  rejected("dual_arm/bar_alone --wrench any", "second contact");
+  rejected("fixed/push --wrench any --certificate proof.bin", "any wrenches with dependent joints");
   rejected("dual_arm/bar_wall --certificate proof.bin",
            "--certificate: got a task with forces of a second contact");
   rejected("planar/force --measure volume", "--measure: got 'volume'");

@@ -130,7 +130,8 @@ TEST(CapabilityBound, RejectsWhatItDoesNotSupport) {
   };
   rejected("uvms/valve_trajectory", "linf_polytope", Wrench::kPure, "task in time");
   rejected("dual_arm/bar_wall", "ellipsoid", Wrench::kPure, "ellipsoid");
-  rejected("fixed/push", "linf_polytope", Wrench::kAny, "any");
+  rejected("dual_arm/bar_alone", "linf_polytope", Wrench::kAny, "second contact");
+  rejected("fixed/push", "l2_polytope", Wrench::kAny, "any");
   rejected("planar/force", "manipulability", Wrench::kPure, "manipulability");
   rejected("planar/force", "ellipsoid", Wrench::kAny, "any");
   EXPECT_EQ(rejection("planar/force", "ellipsoid", Wrench::kPure), "");
