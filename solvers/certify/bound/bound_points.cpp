@@ -40,6 +40,24 @@ double PointValues::bound(double s, const Eigen::VectorXd& g, const Eigen::Vecto
   return U;
 }
 
+std::vector<int> ProgramPoints::begin(const std::vector<int>& basis, int first) {
+  clear();
+  std::vector<int> columns = basis;
+  for (int& column : columns) {
+    if (column < first) continue;
+    add(column - first);
+    column = first + static_cast<int>(count()) - 1;
+  }
+  return columns;
+}
+
+std::vector<int> ProgramPoints::numbered(std::vector<int> columns, int first) const {
+  for (int& column : columns) {
+    if (column >= first) column = first + ids_[static_cast<std::size_t>(column - first)];
+  }
+  return columns;
+}
+
 void ProgramPoints::add_corners(const Coordinates& chain, Eigen::Index size) {
   for (Eigen::Index v = 0; v < size && count() + 2 <= kMost / 2; ++v) {
     Eigen::Index rest = v;

@@ -41,6 +41,11 @@ class ProgramPoints {
   Eigen::Index count() const { return static_cast<Eigen::Index>(ids_.size()); }
   void clear() { ids_.clear(); }
   void add(int id) { ids_.push_back(id); }
+  /// Begins with the points of the basis of a larger box. `first` is the first point's column in a
+  /// basis of the program. Returns the columns of that basis in a program with these points.
+  std::vector<int> begin(const std::vector<int>& basis, int first);
+  /// The same basis with the numbers of points, for the program of a part of the box.
+  std::vector<int> numbered(std::vector<int> columns, int first) const;
   /// Adds the corners of a box, if there are not too many.
   void add_corners(const Coordinates& chain, Eigen::Index size);
   /// Adds the numbers of some of the largest values above a limit, which are their places, or

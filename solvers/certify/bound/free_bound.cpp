@@ -98,20 +98,13 @@ class FreeBound final : public Bound {
       if (values_.at().maxCoeff() - least <= kClose * std::max(proof.high - low_, 0.0)) break;
       if (!add_points(least)) break;
     }
-    keep_basis(proof.basis);
+    proof.basis = points_.numbered(local_, program_.first_point());
   }
 
   /// Begins with the points of a larger box's basis and those that are worst at its multiplier;
   /// without a basis, with the corners of the box.
   void begin_points(const std::vector<int>& basis) {
-    points_.clear();
-    const int first = program_.first_point();
-    local_ = basis;
-    for (int& column : local_) {
-      if (column < first) continue;
-      points_.add(column - first);
-      column = first + static_cast<int>(points_.count()) - 1;
-    }
+    local_ = points_.begin(basis, program_.first_point());
     if (basis.empty()) points_.add_corners(model_->coordinates.chain, model_->size);
     write_points(0);
     if (!basis.empty()) add_points(-kInfinity);
@@ -143,14 +136,6 @@ class FreeBound final : public Bound {
     if (!points_.add_largest(values_.at(), least, number)) return false;
     write_points(before);
     return true;
-  }
-
-  void keep_basis(std::vector<int>& basis) const {
-    basis = local_;
-    const int first = program_.first_point();
-    for (int& column : basis) {
-      if (column >= first) column = first + points_.ids()[static_cast<std::size_t>(column - first)];
-    }
   }
 
   std::shared_ptr<const LoopModel> model_;
