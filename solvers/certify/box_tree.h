@@ -6,9 +6,9 @@
 
 namespace maxwrench {
 
-/// A binary tree of boxes around many boxes, to find neighbours. Comparisons are exact: sides made
-/// by the same halvings are identical numbers, and a posture on a side is in the boxes of both
-/// sides, however much of these is cut off because it has no posture.
+/// A binary tree of boxes around many boxes, to find neighbours. Comparisons are exact, because
+/// sides made by the same halvings are identical numbers. Boxes are closed sets: a connected set of
+/// postures that they cover lies in connected boxes.
 class BoxTree {
  public:
   /// `lower` and `upper` are the limits of all boxes; where `turns`, both limits are the same

@@ -173,7 +173,8 @@ class Clusters {
   }
 
   int cluster_at(const Eigen::VectorXd& x) const {
-    const int found = tree_.find(x, margin_);
+    int found = tree_.find(x);
+    if (found < 0 && margin_ > 0) found = tree_.find(x, margin_);
     return found < 0 ? -1 : result_.boxes[static_cast<std::size_t>(found)].cluster;
   }
 

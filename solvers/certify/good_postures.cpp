@@ -8,6 +8,7 @@
 
 #include "lib/math/require.h"
 #include "maxwrench/batch.h"
+#include "maxwrench/robot.h"
 #include "solvers/certify/clusters.h"
 #include "solvers/certify/halving.h"
 
@@ -29,11 +30,13 @@ class GoodBoxes {
         halving_(objective, bound, {.threads = options.threads, .cells = true}),
         low_(std::nextafter(result.least, -kInfinity)),
         start_(std::chrono::steady_clock::now()) {
-    auto root = halving_.root(low_, high);
-    result.lower = root->lower;
-    result.upper = root->upper;
+    // Those of the root before parts without a posture are cut off it: where both limits of an
+    // angle are the same place, they are a turn apart.
+    result.lower = objective.lower().array() - kLimitTolerance;
+    result.upper = objective.upper().array() + kLimitTolerance;
+    bound.extend(result.lower, result.upper);
     keep_within_limits(result.lower, result.upper);
-    keep(std::move(root));
+    keep(halving_.root(low_, high));
   }
 
   void run() {

@@ -29,7 +29,7 @@ struct Cluster {
   /// The limits of its boxes. For a coordinate that turns all around, the shortest arc, whose upper
   /// end may be up to one turn beyond its limit.
   Eigen::VectorXd lower, upper;
-  double share = 0;   ///< of the volume of all theta_r
+  double share = 0;   ///< of the volume of all theta_r; at most this if the list ended early
   double high = 0;    ///< no value in it exceeds this
   Candidate best;     ///< the best posture found in it; -infinity: none with a value was found
   Eigen::VectorXd x;  ///< all coordinates of that posture

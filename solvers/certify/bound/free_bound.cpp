@@ -164,6 +164,11 @@ std::unique_ptr<Bound> make_free_bound(const Problem& problem) {
                                 ": wrench: got 'any' with more components than the robot has "
                                 "coordinates, expected pure for a proof: nothing limits them");
   }
+  if (!set->u_min.allFinite() || !set->u_max.allFinite()) {
+    throw std::invalid_argument(problem.name +
+                                ": wrench: got 'any' with efforts without limits, expected pure "
+                                "or limits for a proof: nothing limits the other components");
+  }
   if (!FreePoints::few_patterns(*model, set->actuators())) {
     throw std::invalid_argument(problem.name +
                                 ": wrench: got 'any', expected pure for a proof with so many "

@@ -100,11 +100,12 @@ bool FreePoints::set(LoopBox& loads, const Eigen::VectorXd& lower, const Eigen::
 void FreePoints::find_centre(LoopBox& loads, const Eigen::VectorXd& lower,
                              const Eigen::VectorXd& upper) {
   own_ = (lower + upper) / 2;
-  loads.evaluate(own_);
-  loads.deviations(sums_, slopes_);
+  loads.evaluate(own_, sums_, slopes_);
+  off_.setZero();
   off_.col(0) = sums_;
   off_.col(1) = slopes_;
   tau_ = loads.tau();
+  A_.setZero();
   A_.col(0) = loads.a();
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const FreeColumns::Part& part = columns_->parts[i];
@@ -113,8 +114,8 @@ void FreePoints::find_centre(LoopBox& loads, const Eigen::VectorXd& lower,
     const auto count = static_cast<Eigen::Index>(part.rows.size());
     for (Eigen::Index row = 0; row < at.size(); ++row) {
       const int place = part.rows[static_cast<std::size_t>(row % count)];
-      A_(place, 1 + row / count) = at[row];
-      off_(place, 2 + row / count) = (points_[i]->row(row).array() - at[row]).abs().maxCoeff();
+      A_(place, 1 + row / count) += at[row];
+      off_(place, 2 + row / count) += (points_[i]->row(row).array() - at[row]).abs().maxCoeff();
     }
   }
 }

@@ -79,18 +79,22 @@ void LoopBox::collect(const Values& values_of) {
   }
 }
 
-void LoopBox::deviations(Eigen::VectorXd& off_tau, Eigen::VectorXd& off_a) const {
+void LoopBox::evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& off_tau, Eigen::VectorXd& off_a) {
+  evaluate(x);
   off_tau.setZero(model_.n);
   off_a.setZero(model_.n);
   for (std::size_t i = 0; i < points_.size(); ++i) {
     const LoopPart& part = model_.parts[i];
     if (part.kind == LoopPart::Kind::kEquations) continue;
+    const Eigen::VectorXd at = part.f.evaluate(x);
+    const auto off = [&](Eigen::Index k) {
+      return (points_[i]->row(k).array() - at[k]).abs().maxCoeff();
+    };
     const auto count = static_cast<Eigen::Index>(part.rows.size());
     for (Eigen::Index k = 0; k < count; ++k) {
       const int row = part.rows[static_cast<std::size_t>(k)];
-      off_tau[row] += (points_[i]->row(k).array() - tau_[row]).abs().maxCoeff();
-      if (part.kind != LoopPart::Kind::kLoads) continue;
-      off_a[row] += (points_[i]->row(count + k).array() - a_[row]).abs().maxCoeff();
+      off_tau[row] += off(k);
+      if (part.kind == LoopPart::Kind::kLoads) off_a[row] += off(count + k);
     }
   }
 }

@@ -32,9 +32,9 @@ class LoopBox {
   void read(Eigen::Index v);
   /// Computes tau, a and f at x.
   void evaluate(const Eigen::VectorXd& x);
-  /// The largest |tau_v - tau| and |a_v - a| of each row over all control points v, with the last
-  /// tau and a that were computed.
-  void deviations(Eigen::VectorXd& off_tau, Eigen::VectorXd& off_a) const;
+  /// Computes tau, a and f at x, and limits of |tau_v - tau| and |a_v - a| of each row over all
+  /// control points v: the sums of those of its parts.
+  void evaluate(const Eigen::VectorXd& x, Eigen::VectorXd& off_tau, Eigen::VectorXd& off_a);
   const Eigen::VectorXd& tau() const { return tau_; }
   const Eigen::VectorXd& a() const { return a_; }
   const Eigen::VectorXd& f() const { return f_; }

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "maxwrench/posture.h"
 #include "maxwrench/solve.h"
@@ -21,15 +22,17 @@ namespace {
 /// A problem, its best posture and the list of all good ones.
 struct Listed {
   Problem problem;
+  Wrench wrench;
   MeasureMaker make_measure;
   std::unique_ptr<Objective> objective;
   CertifyResult proof;
 
-  explicit Listed(const char* name) : problem(loop_problem(name)) {
+  explicit Listed(const char* name, Wrench any_or_pure = Wrench::kPure)
+      : problem(loop_problem(name)), wrench(any_or_pure) {
     make_measure = [this] {
-      return find_measure("linf_polytope").make(problem, find_wrench_solver("facets").make());
+      return find_measure("linf_polytope").make(problem, find_wrench_solver("condensed").make());
     };
-    objective = make_capability_objective(problem, Wrench::kPure, make_measure);
+    objective = make_capability_objective(problem, wrench, make_measure);
     SearchOptions search;
     search.start = problem.theta_r_default;
     const SearchResult found = find_search(general_search()).make()->maximize(*objective, search);
@@ -39,12 +42,12 @@ struct Listed {
   Listed(const Listed&) = delete;
 
   std::unique_ptr<Bound> bound() const {
-    return make_bound_of_all_coordinates(problem, "linf_polytope", Wrench::kPure);
+    return make_bound_of_all_coordinates(problem, "linf_polytope", wrench);
   }
   GoodPostures list(GoodOptions options) const {
     options.turns = BoxCoordinates(problem).turns();
     if (!problem.dependent.empty()) {
-      options.make_postures = make_all_postures(problem, Wrench::kPure, make_measure);
+      options.make_postures = make_all_postures(problem, wrench, make_measure);
     }
     return find_good_postures(*objective, *bound(), proof.best, proof.bound, options);
   }
@@ -106,13 +109,9 @@ TEST(GoodPostures, SLOW_OfAVehicleAreListed) {
   EXPECT_GE(found, samples(1000));
 }
 
-/// Lists with dependent joints.
-class GoodDependents : public testing::TestWithParam<const char*> {};
-
 /// No posture of random theta_r with a good value, whatever its IK solution, is outside the boxes;
 /// and what a cluster has as its best is a posture in it with this value.
-TEST_P(GoodDependents, HaveAllTheirIkSolutionsListed) {
-  const Listed at(GetParam());
+void expect_all_ik_solutions(const Listed& at) {
   GoodOptions options;
   options.within = 0.2;
   options.resolution = 0.2;
@@ -129,7 +128,7 @@ TEST_P(GoodDependents, HaveAllTheirIkSolutionsListed) {
     return cluster;
   };
   Random random(5);
-  const PosturesAt postures_at = make_all_postures(at.problem, Wrench::kPure, at.make_measure)();
+  const PosturesAt postures_at = make_all_postures(at.problem, at.wrench, at.make_measure)();
   std::vector<PosturePoint> postures;
   int found = 0;
   for (int i = 0; i < samples(3000); ++i) {
@@ -142,6 +141,12 @@ TEST_P(GoodDependents, HaveAllTheirIkSolutionsListed) {
   }
   EXPECT_GE(found, 1);
   EXPECT_TRUE(good.holds(good.clusters.front()));
+  // Both limits of an angle are the same place only if they are a turn apart.
+  const std::vector<char> turns = coordinates.turns();
+  for (int i = 0; i < coordinates.count(); ++i) {
+    if (turns[static_cast<std::size_t>(i)] == 0) continue;
+    EXPECT_NEAR(good.upper[i] - good.lower[i], 2 * std::numbers::pi, 1e-8) << coordinates.name(i);
+  }
   for (std::size_t i = 0; i < good.clusters.size(); ++i) {
     const Cluster& cluster = good.clusters[i];
     EXPECT_LE(cluster.share, 1);
@@ -159,10 +164,21 @@ TEST_P(GoodDependents, HaveAllTheirIkSolutionsListed) {
   }
 }
 
+/// Lists with dependent joints.
+class GoodDependents : public testing::TestWithParam<const char*> {};
+
+TEST_P(GoodDependents, HaveAllTheirIkSolutionsListed) {
+  expect_all_ik_solutions(Listed(GetParam()));
+}
+
 INSTANTIATE_TEST_SUITE_P(Tasks, GoodDependents,
                          testing::Values("mobile/push", "random, fixed", "random, yaw",
                                          "random, x y z yaw", "random, parked"),
                          loop_name);
+
+TEST(GoodPostures, SLOW_OfAnyWrenchesAreListed) {
+  expect_all_ik_solutions(Listed("gallery/panda/push", Wrench::kAny));
+}
 
 /// The first three joints of `fixed/push` meet in a point. With q_1 and q_3 half a turn further and
 /// -q_2 all links from the elbow on are where they were, so two IK solutions have each good value,

@@ -30,7 +30,7 @@ TEST_P(FreePointsOf, AreThoseOfPostures) {
   PostureSource source(problem, "linf_polytope", ContactForces::kShares, Wrench::kAny);
   Random random(5);
   int seen = 0, limited = 0;
-  for (int sample = 0; sample < samples(100); ++sample) {
+  for (int sample = 0; sample < 100 && seen < samples(100); ++sample) {
     const ValuedPosture* const at = source.draw(random);
     if (at == nullptr) continue;
     ++seen;
