@@ -54,7 +54,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   set_source_files_properties(${PROJECT_SOURCE_DIR}/lib/robot/kinematics.cpp ${PROJECT_SOURCE_DIR}/lib/posture/posture.cpp
     ${PROJECT_SOURCE_DIR}/lib/measure/ellipsoid.cpp ${PROJECT_SOURCE_DIR}/lib/measure/wrench_program.cpp
     ${PROJECT_SOURCE_DIR}/lib/measure/polytope.cpp ${PROJECT_SOURCE_DIR}/lib/math/zonotope.cpp
-    ${PROJECT_SOURCE_DIR}/problems/collision/collision.cpp ${PROJECT_SOURCE_DIR}/problems/collision/gjk.cpp
+    ${PROJECT_SOURCE_DIR}/problems/collision/collision.cpp ${PROJECT_SOURCE_DIR}/lib/math/gjk.cpp
     PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 endif()
 

@@ -1,5 +1,5 @@
 set(maxwrench_lib_sources
-  math/cubic_spline.cpp math/decompositions.cpp math/direct_drives.cpp math/linear_program.cpp math/ode_solution.cpp
+  math/cubic_spline.cpp math/decompositions.cpp math/direct_drives.cpp math/distance.cpp math/gjk.cpp math/linear_program.cpp math/ode_solution.cpp
   math/nearest_edge.cpp math/polygon.cpp math/quick_hull.cpp math/random.cpp math/status.cpp math/zonotope.cpp
   measure/closed_form.cpp measure/dynamic_capability.cpp measure/dynamic_manipulability.cpp measure/ellipsoid.cpp measure/ellipsoid_trace.cpp measure/least_effort.cpp measure/manipulability.cpp
   measure/measure.cpp measure/one_sided.cpp measure/polytope.cpp measure/saturating_wrench.cpp measure/scenario_polytope.cpp measure/task_dynamics.cpp

@@ -1,5 +1,5 @@
 set(maxwrench_problems_sources
-  collision/collision.cpp collision/distance.cpp collision/gjk.cpp collision/grown_shape.cpp collision/shapes.cpp
+  collision/collision.cpp collision/grown_shape.cpp collision/shapes.cpp
   loader/bad_input.cpp loader/block.cpp loader/contact_table.cpp loader/drives.cpp loader/joint_group.cpp loader/knots.cpp loader/motion_file.cpp
   loader/motion_table.cpp loader/number_table.cpp loader/path_table.cpp loader/robot_choices.cpp
   loader/robot_file.cpp loader/robot_srdf.cpp loader/scenario_tables.cpp loader/srdf.cpp loader/state_file.cpp loader/task_file.cpp

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "problems/collision/distance.h"
-#include "problems/collision/gjk.h"
+#include "lib/math/distance.h"
+#include "lib/math/gjk.h"
 #include "problems/collision/grown_shape.h"
 #include "problems/collision/shapes.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "maxwrench/task.h"
-#include "problems/collision/gjk.h"
+#include "lib/math/gjk.h"
 
 namespace maxwrench {
 

@@ -4,7 +4,7 @@
 #include <queue>
 
 #include "lib/math/quick_hull.h"
-#include "problems/collision/gjk.h"
+#include "lib/math/gjk.h"
 
 namespace maxwrench {
 namespace {

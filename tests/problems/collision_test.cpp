@@ -11,7 +11,7 @@
 
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
-#include "problems/collision/distance.h"
+#include "lib/math/distance.h"
 #include "problems/collision/shapes.h"
 #include "tests/support/support.h"
 

@@ -5,7 +5,7 @@
 
 #include "maxwrench/task.h"
 #include "problems/collision/collision.h"
-#include "problems/collision/gjk.h"
+#include "lib/math/gjk.h"
 #include "tests/support/refusals.h"
 #include "tests/support/support.h"
 

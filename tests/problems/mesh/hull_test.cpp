@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "lib/math/random.h"
-#include "problems/collision/distance.h"
+#include "lib/math/distance.h"
 #include "problems/mesh/capsule.h"
 #include "tests/support/support.h"
 

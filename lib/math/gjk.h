@@ -1,6 +1,6 @@
 #pragma once
 
-#include "problems/collision/distance.h"
+#include "lib/math/distance.h"
 
 namespace maxwrench {
 

@@ -1,4 +1,4 @@
-#include "problems/collision/gjk.h"
+#include "lib/math/gjk.h"
 
 #include <algorithm>
 #include <array>

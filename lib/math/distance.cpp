@@ -1,4 +1,4 @@
-#include "problems/collision/distance.h"
+#include "lib/math/distance.h"
 
 #include <algorithm>
 
