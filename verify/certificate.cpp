@@ -18,18 +18,20 @@ void put_pose(ByteWriter& to, const Pose<double>& pose) {
   to.matrix(pose.p);
 }
 
-void put_core(ByteWriter& to, const InscribedBox& core) {
+void put_core(ByteWriter& to, const InnerBody& core) {
   to.count(core.link);
   put_pose(to, core.placement);
   to.matrix(core.half_sizes);
+  if (!core.points.empty()) to.count(static_cast<Eigen::Index>(core.points.size()));
+  for (const Eigen::Vector3d& x : core.points) to.matrix(x);
 }
 
 void put_collision(ByteWriter& to, const CollisionChecker* checker) {
   const int pairs = checker == nullptr ? 0 : checker->pairs();
   to.count(pairs);
   for (int i = 0; i < pairs; ++i) {
-    InscribedBoxPair pair;
-    const bool known = checker->inscribed_boxes(i, pair);
+    InnerBodyPair pair;
+    const bool known = checker->inner_bodies(i, pair);
     to.whole(known ? 1 : 0, 1);
     if (!known) continue;
     put_core(to, pair.a);

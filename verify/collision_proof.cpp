@@ -1,5 +1,7 @@
 #include "verify/collision_proof.h"
 
+#include <algorithm>
+
 namespace maxwrench {
 namespace {
 
@@ -33,11 +35,11 @@ void set_products(const FormShape& shape, const Eigen::VectorXd& q, std::vector<
   }
 }
 
-bool is_thin(const InscribedBox& core) { return (core.half_sizes.array() > 0).count() <= 1; }
+bool is_thin(const InnerBody& core) { return (core.half_sizes.array() > 0).count() <= 1; }
 
 /// The corners of a box and the points midway between them. For a segment, the points at its
 /// quarters.
-std::vector<Eigen::Vector3d> points_of(const InscribedBox& core) {
+std::vector<Eigen::Vector3d> points_of(const InnerBody& core) {
   const int steps = is_thin(core) ? 2 : 1;
   const auto most = [&](int axis) { return core.half_sizes[axis] > 0 ? steps : 0; };
   std::vector<Eigen::Vector3d> points;
@@ -49,6 +51,20 @@ std::vector<Eigen::Vector3d> points_of(const InscribedBox& core) {
     }
   }
   return points;
+}
+
+/// The points whose convex hull a core is, in its axes.
+std::vector<Eigen::Vector3d> solid_corners(const InnerBody& core) {
+  if (!core.points.empty()) return core.points;
+  std::vector<Eigen::Vector3d> corners;
+  for (const double x : {-1.0, 1.0}) {
+    for (const double y : {-1.0, 1.0}) {
+      for (const double z : {-1.0, 1.0}) {
+        corners.push_back(Eigen::Vector3d(x, y, z).cwiseProduct(core.half_sizes));
+      }
+    }
+  }
+  return corners;
 }
 
 /// Whether some row has a term of a variable other than 1.
@@ -67,14 +83,22 @@ bool moves(const FormShape& shape, std::size_t variable,
 /// Subtracted from the reach, because points are moved into link axes with rounded numbers.
 constexpr double kHair = 1e-9;
 
+/// A box of a pair with a hull is cut into this many parts at most, cuts included.
+constexpr int kMostParts = 200;
+
 }  // namespace
 
 bool CollisionProof::collides(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                               int pair) {
   const CollisionChecker* const checker = problem_.robot.collision.get();
   if (checker == nullptr || pair < 0 || pair >= checker->pairs()) return false;
+  const std::vector<Movers>& both = movers(pair);
+  if (!both.empty() && !both[0].solid.empty()) {
+    int left = kMostParts;
+    return with_hull_in_parts(lower, upper, both, left);
+  }
   set_products(model_.shape(), (lower + upper) / 2, terms_);
-  for (const Movers& each : movers(pair)) {
+  for (const Movers& each : both) {
     if (!set_box(lower, upper, each)) continue;
     for (const auto& point : each.points) {
       if (may_be_close(each, point) && is_close(each, point)) return true;
@@ -97,30 +121,171 @@ const std::vector<CollisionProof::Movers>& CollisionProof::movers(int pair) {
   const auto found = known_.find(pair);
   if (found != known_.end()) return found->second;
   std::vector<Movers>& both = known_[pair];
-  InscribedBoxPair inscribed_boxes;
-  if (problem_.robot.collision->inscribed_boxes(pair, inscribed_boxes)) {
-    both.push_back(movers(inscribed_boxes.a, inscribed_boxes.b, inscribed_boxes.reach));
-    both.push_back(movers(inscribed_boxes.b, inscribed_boxes.a, inscribed_boxes.reach));
+  InnerBodyPair bodies;
+  if (problem_.robot.collision->inner_bodies(pair, bodies)) {
+    both.push_back(movers(bodies.a, bodies.b, bodies.reach));
+    both.push_back(movers(bodies.b, bodies.a, bodies.reach));
   }
   return both;
 }
 
-CollisionProof::Movers CollisionProof::movers(const InscribedBox& core, const InscribedBox& other,
+CollisionProof::Movers CollisionProof::movers(const InnerBody& core, const InnerBody& other,
                                               double reach) const {
-  Movers result{other.half_sizes, reach - kHair, {}, {}};
-  for (const Eigen::Vector3d& at : points_of(core)) {
-    const Eigen::Vector3d in_link = core.placement.R * at + core.placement.p;
-    const FormVector x = model_.seen(core.link, model_.constant(in_link), other.link);
-    const FormVector in_core = model_.into(other.placement, x);
+  Movers result;
+  result.half_sizes = other.half_sizes;
+  result.reach = reach - kHair;
+  const auto add = [&](const Eigen::Vector3d& x, bool point) {
+    const FormVector seen = model_.seen(core.link, model_.constant(x), other.link, point);
+    const FormVector in_core = point ? model_.into(other.placement, seen)
+                                     : transposed(model_.matrix(other.placement.R)) * seen;
     const std::vector<double>& far = model_.far();
     result.points.push_back(
         {FormRow(in_core[0], far), FormRow(in_core[1], far), FormRow(in_core[2], far)});
+  };
+  result.into_hull = !other.points.empty();
+  if (result.into_hull || !core.points.empty()) {
+    for (const Eigen::Vector3d& x : solid_corners(core)) {
+      result.solid.push_back(core.placement.R * x + core.placement.p);
+    }
+    result.other_solid = solid_corners(other);
+    add(Eigen::Vector3d::Zero(), true);
+    for (int i = 0; i < 3; ++i) add(Eigen::Vector3d::Unit(i), false);
+  } else {
+    for (const Eigen::Vector3d& x : points_of(core)) {
+      add(core.placement.R * x + core.placement.p, true);
+    }
   }
   const FormShape& shape = model_.shape();
   for (std::size_t i = 0; i < shape.terms.size(); ++i) {
-    if (!moves(shape, i, result.points)) result.others.push_back(shape.coordinates[i]);
+    (moves(shape, i, result.points) ? result.moving : result.others)
+        .push_back(shape.coordinates[i]);
   }
   return result;
+}
+
+/// Whether the bodies collide throughout the box, or throughout each of its halves, and so on.
+bool CollisionProof::with_hull_in_parts(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
+                                        const std::vector<Movers>& both, int& left) {
+  if (--left < 0) return false;
+  const Answer answer = with_hull(lower, upper, both);
+  if (answer != Answer::kUnknown) return answer == Answer::kYes;
+  int widest = -1;
+  for (const int i : both[0].moving) {
+    if (widest < 0 || upper[i] - lower[i] > upper[widest] - lower[widest]) widest = i;
+  }
+  if (widest < 0) return false;
+  const double middle = (lower[widest] + upper[widest]) / 2;
+  if (!(middle > lower[widest] && middle < upper[widest])) return false;
+  Eigen::VectorXd end = upper, start = lower;
+  end[widest] = start[widest] = middle;
+  return with_hull_in_parts(lower, end, both, left) && with_hull_in_parts(start, upper, both, left);
+}
+
+CollisionProof::Answer CollisionProof::with_hull(const Eigen::VectorXd& lower,
+                                                 const Eigen::VectorXd& upper,
+                                                 const std::vector<Movers>& both) {
+  set_products(model_.shape(), (lower + upper) / 2, terms_);
+  bool near = false;
+  for (const Movers& each : both) {
+    const std::vector<Eigen::Vector3d> points = choose_points(each);
+    if (points.empty()) continue;
+    near = true;
+    if (!set_box(lower, upper, each)) continue;
+    for (const Eigen::Vector3d& x : points) {
+      if (stays_close(each, x)) return Answer::kYes;
+    }
+  }
+  return near ? Answer::kUnknown : Answer::kNo;
+}
+
+/// Points of a core, in the axes of its link: the one nearest to the middle of the other core's
+/// corners, and the one nearest to the other core, at the centre of the box. None if the cores are
+/// out of reach there. In ordinary arithmetic: any point will do.
+std::vector<Eigen::Vector3d> CollisionProof::choose_points(const Movers& movers) const {
+  Pose<double> pose;
+  for (int i = 0; i < 3; ++i) {
+    const auto row = static_cast<std::size_t>(i);
+    pose.p[i] = at_centre(movers.points[0][row]);
+    for (int j = 0; j < 3; ++j) {
+      pose.R(i, j) = at_centre(movers.points[static_cast<std::size_t>(j + 1)][row]);
+    }
+  }
+  std::vector<Eigen::Vector3d> placed;
+  for (const Eigen::Vector3d& x : movers.solid) placed.emplace_back(pose.R * x + pose.p);
+  const NearestMeans nearest = nearest_means(placed, movers.other_solid);
+  const double apart = (nearest.a.of(placed) - nearest.b.of(movers.other_solid)).norm();
+  if (!(apart - 2 * kHair < movers.reach)) return {};
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  for (const Eigen::Vector3d& x : movers.other_solid) middle += x;
+  middle /= static_cast<double>(movers.other_solid.size());
+  const Eigen::Vector3d deep = nearest_means(placed, {middle}).a.of(movers.solid);
+  return {nearest.a.of(movers.solid), deep};
+}
+
+/// Control points that differ in coordinates that move nothing are the same.
+bool CollisionProof::stays_close(const Movers& movers, const Eigen::Vector3d& x) {
+  const FormShape& shape = model_.shape();
+  for (std::size_t i = 0; i < 3; ++i) {
+    x_[i].assign(static_cast<std::size_t>(shape.size), 0.0);
+    add_to(x_[i], movers.points[0][i], 1.0);
+    for (std::size_t k = 0; k < 3; ++k) {
+      add_to(x_[i], movers.points[k + 1][i], x[static_cast<Eigen::Index>(k)]);
+    }
+    box_.over_box(x_[i]);
+  }
+  std::vector<std::size_t> still;
+  for (std::size_t i = 0; i < shape.terms.size(); ++i) {
+    if (std::count(movers.others.begin(), movers.others.end(), shape.coordinates[i])) {
+      still.push_back(i);
+    }
+  }
+  for (std::size_t v = 0; v < x_[0].size(); ++v) {
+    const auto repeats = [&](std::size_t i) { return shape.digit(static_cast<int>(v), i) != 0; };
+    if (std::any_of(still.begin(), still.end(), repeats)) continue;
+    const std::array<Narrow, 3> at = {x_[0][v], x_[1][v], x_[2][v]};
+    const bool near = movers.into_hull ? is_near_hull(movers, at)
+                                       : beyond(at, movers.half_sizes, movers.reach) < 0;
+    if (!near) return false;
+  }
+  return true;
+}
+
+/// Whether x is within reach of a mean of the hull's points. Any mean will do: first the last one.
+bool CollisionProof::is_near_hull(const Movers& movers, const std::array<Narrow, 3>& x) {
+  const auto is_near = [&](const WeightedMean& mean) {
+    Narrow weights;
+    std::array<Narrow, 3> sum;
+    for (std::size_t k = 0; k < mean.size; ++k) {
+      if (!(mean.weight[k] > 0)) return false;
+      weights += mean.weight[k];
+      const Eigen::Vector3d& corner = movers.other_solid[mean.index[k]];
+      for (std::size_t i = 0; i < 3; ++i) {
+        sum[i] += mean.weight[k] * Narrow(corner[static_cast<Eigen::Index>(i)]);
+      }
+    }
+    if (!(weights.low > 0)) return false;
+    Narrow square;
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double apart = (x[i] - sum[i] / weights).magnitude();
+      if (!(apart < kInfinity)) return false;  // or NaN
+      square += Narrow(apart) * Narrow(apart);
+    }
+    return root_above(square.high) < movers.reach;
+  };
+  const auto fits = [&](std::size_t index) { return index < movers.other_solid.size(); };
+  if (std::all_of(mean_.index.begin(), mean_.index.end(), fits) && is_near(mean_)) return true;
+  const Eigen::Vector3d middle((x[0].low + x[0].high) / 2, (x[1].low + x[1].high) / 2,
+                               (x[2].low + x[2].high) / 2);
+  mean_ = nearest_means({middle}, movers.other_solid).b;
+  return is_near(mean_);
+}
+
+double CollisionProof::at_centre(const FormRow& row) const {
+  double sum = 0;
+  for (std::size_t k = 0; k < row.index.size(); ++k) {
+    sum += row.coefficient[k].low * terms_[static_cast<std::size_t>(row.index[k])];
+  }
+  return sum;
 }
 
 /// Whether the point is close at the centre of the box, without an enclosure. Only then a proof is
@@ -128,11 +293,7 @@ CollisionProof::Movers CollisionProof::movers(const InscribedBox& core, const In
 bool CollisionProof::may_be_close(const Movers& movers, const std::array<FormRow, 3>& point) const {
   std::array<Narrow, 3> x;
   for (std::size_t i = 0; i < 3; ++i) {
-    double sum = 0;
-    for (std::size_t k = 0; k < point[i].index.size(); ++k) {
-      sum += point[i].coefficient[k].low * terms_[static_cast<std::size_t>(point[i].index[k])];
-    }
-    x[i] = sum;
+    x[i] = at_centre(point[i]);
   }
   return beyond(x, movers.half_sizes, movers.reach) < 0;
 }

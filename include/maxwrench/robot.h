@@ -143,17 +143,19 @@ struct ClosestPoints {
       on_b;  ///< a point on the second body, in base axes [m]
 };
 
-/// A box inside a body of a link. It may be a segment or a point.
-struct InscribedBox {
+/// A convex body inside a body of a link: a box, which may be a segment or a point, or a hull.
+struct InnerBody {
   int link = 0;                                          ///< the link
-  Pose<double> placement;                                ///< link -> box, centred at its origin
-  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< half of its sizes [m]
+  Pose<double> placement;                                ///< link -> its axes
+  Eigen::Vector3d half_sizes = Eigen::Vector3d::Zero();  ///< half the sizes [m] of a centred box
+  /// If there are any, it is their convex hull in place of the box [m], in its axes.
+  std::vector<Eigen::Vector3d> points = {};
 };
 
-/// Inscribed boxes of two bodies, which collide wherever these boxes are closer than `reach`.
-struct InscribedBoxPair {
-  InscribedBox a,    ///< box in the first body
-      b;             ///< box in the second body
+/// Inner bodies of two bodies, which collide wherever these are closer than `reach`.
+struct InnerBodyPair {
+  InnerBody a,       ///< inside the first body
+      b;             ///< inside the second body
   double reach = 0;  ///< distance [m]
 };
 
@@ -180,12 +182,11 @@ class CollisionChecker {
                        ClosestPoints& result) const = 0;
   /// Returns the names of the URDF links of a pair, such as "forearm and base".
   virtual std::string pair_name(int pair) const = 0;
-  /// Gives inscribed boxes of a pair, from which a collision over a range of postures can be
-  /// proved.
+  /// Gives inner bodies of a pair, from which a collision over a range of postures can be proved.
   ///
   /// The arguments are the pair, and the result. It returns false if the pair has none, which is
   /// the default.
-  virtual bool inscribed_boxes(int /*pair*/, InscribedBoxPair& /*result*/) const { return false; }
+  virtual bool inner_bodies(int /*pair*/, InnerBodyPair& /*result*/) const { return false; }
 };
 
 /// A value of a robot's data that some tasks cannot use, in the words of an error message.

@@ -222,4 +222,19 @@ Between closest_points(const ConvexCore& a, const Pose<double>& pose_a, const Co
   return between;
 }
 
+Vector3d point_near(const ConvexCore& core, const Vector3d& x, double reach) {
+  Pose<double> at_x;
+  at_x.p = x;
+  Simplex simplex;
+  gjk({}, at_x, core, {}, reach, simplex);
+  Vector3d near = Vector3d::Zero();
+  double sum = 0;
+  for (int i = 0; i < simplex.size; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    near += simplex.weights[k] * simplex.corners[k].on_b;
+    sum += simplex.weights[k];
+  }
+  return near / sum;  // NaN if there is no corner: x is out of reach
+}
+
 }  // namespace maxwrench

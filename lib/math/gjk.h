@@ -26,4 +26,8 @@ bool closer_than(const ConvexCore& a, const Pose<double>& pose_a, const ConvexCo
 Between closest_points(const ConvexCore& a, const Pose<double>& pose_a, const ConvexCore& b,
                        const Pose<double>& pose_b);
 
+/// A point of the core near x, up to rounding a mean of its points: closer to x than `reach` >= 0
+/// if any is, but not always the closest. In the axes of the core.
+Eigen::Vector3d point_near(const ConvexCore& core, const Eigen::Vector3d& x, double reach);
+
 }  // namespace maxwrench

@@ -189,12 +189,10 @@ class ShapePairs : public CollisionChecker {
 
   int pairs() const override { return static_cast<int>(pairs_.size()); }
 
-  /// Hulls have none.
-  bool inscribed_boxes(int i, InscribedBoxPair& result) const override {
+  bool inner_bodies(int i, InnerBodyPair& result) const override {
     const Pair& pair = pairs_[index(i)];
-    if (pair.test == Test::kGjk) return false;
-    const double radius = inscribed_core(shapes_[index(pair.a)], result.a);
-    result.reach = radius + inscribed_core(shapes_[index(pair.b)], result.b) + margin_;
+    const double radius = inner_core(shapes_[index(pair.a)], result.a);
+    result.reach = radius + inner_core(shapes_[index(pair.b)], result.b) + margin_;
     return true;
   }
 

@@ -59,9 +59,15 @@ RoundedCore rounded_core(const Shape& shape) {
   return rounded;
 }
 
-double inscribed_core(const Shape& shape, InscribedBox& core) {
+double inner_core(const Shape& shape, InnerBody& core) {
   core.link = shape.link;
   core.placement = shape.placement;
+  core.half_sizes.setZero();
+  core.points.clear();
+  if (is(shape, Shape::Kind::kHull)) {
+    core.points = shape.points;
+    return shape.radius;
+  }
   if (is(shape, Shape::Kind::kBox)) {
     core.half_sizes = shape.half_sizes;
     return 0;

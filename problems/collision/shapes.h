@@ -1,7 +1,7 @@
 #pragma once
 
-#include "maxwrench/task.h"
 #include "lib/math/gjk.h"
+#include "maxwrench/task.h"
 
 namespace maxwrench {
 
@@ -21,9 +21,9 @@ struct RoundedCore {
 
 RoundedCore rounded_core(const Shape& shape);
 
-/// Sets `core` to a box such that the shape contains all points within a radius of it, and returns
-/// this radius. For a capsule and a box these points are the whole shape. Not for a hull.
-double inscribed_core(const Shape& shape, InscribedBox& core);
+/// Sets `core` to a box or a hull such that the shape contains all points within a radius of it,
+/// and returns this radius. But for a cylinder these points are the whole shape.
+double inner_core(const Shape& shape, InnerBody& core);
 
 /// The shape as a convex body. A cylinder becomes a prism of 32 faces.
 ConvexBody to_convex_body(const Shape& shape);

@@ -227,8 +227,8 @@ TEST(CollisionChecker, KnowsCoresThatCollide) {
     }
     const auto checker = make_collision_checker(shapes, {}, 0.01);
     const std::vector<Pose<double>> links = {{}, sampler.pose(0.5)};
-    InscribedBoxPair pair;
-    ASSERT_TRUE(checker->inscribed_boxes(0, pair));
+    InnerBodyPair pair;
+    ASSERT_TRUE(checker->inner_bodies(0, pair));
     const Pose<double> a = links[static_cast<std::size_t>(pair.a.link)] * pair.a.placement;
     const Pose<double> b = links[static_cast<std::size_t>(pair.b.link)] * pair.b.placement;
     const Vector3d in_a = sampler.point(1).cwiseProduct(pair.a.half_sizes);

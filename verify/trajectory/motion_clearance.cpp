@@ -41,7 +41,7 @@ void add_levers(const TrajectoryModel& model, int link, int ancestor, double ext
 }
 
 /// [m] The distance of the farthest point of a box from the origin of its link.
-double extent(const InscribedBox& box) {
+double extent(const InnerBody& box) {
   return (box.placement.p.norm() + box.half_sizes.norm()) * (1 + 1e-12);
 }
 
@@ -73,8 +73,10 @@ class ClearanceProof {
     const Robot& robot = model.problem().robot;
     for (int pair = 0; pair < checker_.pairs(); ++pair) {
       std::vector<Lever>& levers = levers_.emplace_back();
-      InscribedBoxPair cores;
-      known_.push_back(checker_.inscribed_boxes(pair, cores) ? 1 : 0);
+      InnerBodyPair cores;
+      const bool boxes =
+          checker_.inner_bodies(pair, cores) && cores.a.points.empty() && cores.b.points.empty();
+      known_.push_back(boxes ? 1 : 0);
       if (!known_.back()) continue;
       const int ancestor = common_ancestor(robot, cores.a.link, cores.b.link);
       add_levers(model, cores.a.link, ancestor, extent(cores.a), levers);

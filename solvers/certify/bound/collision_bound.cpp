@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "lib/math/gjk.h"
 #include "lib/robot/chain.h"
 #include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/bound/exact_posture.h"
@@ -12,6 +13,10 @@ namespace {
 /// The depth [m] within reach that the whole box must have. It exceeds the rounding errors of
 /// collision checks.
 constexpr double kDepth = 1e-6;
+
+/// Pairs with a hull and more control points than this (8 joints) have no proof: they would take
+/// too much time, and are many.
+constexpr Eigen::Index kMostBesideHull = 6561;
 
 /// The coordinates of a posture that move one link relative to the other.
 Coordinates between_links(const Problem& problem, int a, int b) {
@@ -59,20 +64,52 @@ double beyond(const Eigen::Vector3d& half_sizes, double reach, const Eigen::Vect
 }
 
 /// A core that moves in the axes of another core's link. The points tried are its corners and
-/// midpoints.
+/// midpoints. If one of the two is a hull, they are found at the centre of each box.
 struct Mover {
   int pair;
-  InscribedBox core, other;
+  InnerBody core, other;
   double reach;
   double far;  ///< centres farther apart than this are out of reach
   MultiAffine path;
-  std::vector<Eigen::Vector3d> points;  ///< in the axes of their link
+  std::vector<Eigen::Vector3d> points;  ///< in the axes of their link; none with a hull
   Pose<double> into;                    ///< the other's link -> its core
+  ConvexCore solid, other_solid;        ///< the cores, if one of them is a hull
+  Pose<double> middle;                  ///< of the other core, in its own axes
 };
 
-bool is_segment(const InscribedBox& core) { return (core.half_sizes.array() > 0).count() <= 1; }
+bool is_hull(const InnerBody& core) { return !core.points.empty(); }
 
-std::vector<Eigen::Vector3d> points_of(const InscribedBox& core) {
+bool is_segment(const InnerBody& core) {
+  return !is_hull(core) && (core.half_sizes.array() > 0).count() <= 1;
+}
+
+double radius_of(const InnerBody& core) {
+  if (!is_hull(core)) return core.half_sizes.norm();
+  double farthest = 0;
+  for (const Eigen::Vector3d& x : core.points) farthest = std::max(farthest, x.norm());
+  return farthest;
+}
+
+ConvexCore solid_of(const InnerBody& core) {
+  ConvexCore solid;
+  solid.half_sizes = core.half_sizes;
+  solid.points.resize(static_cast<Eigen::Index>(core.points.size()), 3);
+  for (std::size_t i = 0; i < core.points.size(); ++i) {
+    solid.points.row(static_cast<Eigen::Index>(i)) = core.points[i].transpose();
+  }
+  return solid;
+}
+
+/// The same for a core that may be a hull. The nearest point of a hull is any mean of its points:
+/// it proves that x is within reach, wherever it comes from. The depth of a point in a hull is not
+/// known, so without a reach nothing is proved.
+double beyond(const Mover& mover, const Eigen::Vector3d& x) {
+  if (!is_hull(mover.other)) return beyond(mover.other.half_sizes, mover.reach, x);
+  if (!(mover.reach > 0)) return kInfinity;
+  return (x - point_near(mover.other_solid, x, mover.reach)).norm() - mover.reach;
+}
+
+std::vector<Eigen::Vector3d> points_of(const InnerBody& core) {
   const int steps = is_segment(core) ? 2 : 1;
   std::array<int, 3> most{};
   for (int i = 0; i < 3; ++i) {
@@ -90,16 +127,27 @@ std::vector<Eigen::Vector3d> points_of(const InscribedBox& core) {
   return points;
 }
 
-Mover mover(const Problem& problem, int pair, const InscribedBox& core, const InscribedBox& other,
+Mover mover(const Problem& problem, int pair, const InnerBody& core, const InnerBody& other,
             double reach) {
-  return {pair,
-          core,
-          other,
-          reach - kDepth,
-          reach + core.half_sizes.norm() + other.half_sizes.norm(),
-          relative_pose(problem, core.link, other.link),
-          points_of(core),
-          other.placement.inverse()};
+  Mover result{pair,
+               core,
+               other,
+               reach - kDepth,
+               reach + radius_of(core) + radius_of(other),
+               relative_pose(problem, core.link, other.link),
+               {},
+               other.placement.inverse(),
+               {},
+               {},
+               {}};
+  if (!is_hull(core) && !is_hull(other)) {
+    result.points = points_of(core);
+    return result;
+  }
+  result.solid = solid_of(core);
+  result.other_solid = solid_of(other);
+  if (is_hull(other)) result.middle.p = result.other_solid.points.colwise().mean().transpose();
+  return result;
 }
 
 using Movers = std::vector<Mover>;
@@ -179,43 +227,70 @@ class CollisionBound final : public Bound {
     return -1;
   }
 
-  /// The point that is deepest within reach at the centre of the box. Null if no point is within
-  /// reach; then not all control points can be. Remembers the mover that comes nearest.
-  const Eigen::Vector3d* deepest(int i) {
+  /// Remembers the mover that comes nearest.
+  void consider(int mover, double by) {
+    if (!(by < near_)) return;
+    near_ = by;
+    nearest_ = mover;
+  }
+
+  /// Sets the points to try. They are within reach at the centre of the box; otherwise not all
+  /// control points can be.
+  void choose_points(int i) {
+    tried_.clear();
     const Mover& mover = (*movers_)[static_cast<std::size_t>(i)];
     const Pose<double>& a = centre_.links()[static_cast<std::size_t>(mover.core.link)];
     const Pose<double>& b = centre_.links()[static_cast<std::size_t>(mover.other.link)];
     const Eigen::Vector3d between =
         a.R * mover.core.placement.p + a.p - (b.R * mover.other.placement.p + b.p);
     const double far = mover.far + std::max(near_, 0.0);
-    if (between.squaredNorm() > far * far) return nullptr;
+    if (between.squaredNorm() > far * far) return;
     const Pose<double> pose = mover.into * (b.inverse() * a);
-    const Eigen::Vector3d* found = nullptr;
+    if (mover.points.empty()) return choose_closest(i, pose);
     double least = 0;
     for (const Eigen::Vector3d& x : mover.points) {
       const double by = beyond(mover.other.half_sizes, mover.reach, pose.R * x + pose.p);
-      if (by < near_) {
-        near_ = by;
-        nearest_ = i;
-      }
+      consider(i, by);
       if (by >= least) continue;
       least = by;
-      found = &x;
+      tried_.assign(1, x);
     }
-    return found;
+  }
+
+  /// The point closest to the other core. Where the cores intersect, first the one closest to its
+  /// middle, which is deeper.
+  void choose_closest(int i, const Pose<double>& pose) {
+    const Mover& mover = (*movers_)[static_cast<std::size_t>(i)];
+    const Pose<double> at = pose * mover.core.placement;
+    const double near = std::max(mover.reach, 0.0) + std::max(near_, 0.0);
+    if (!closer_than(mover.solid, at, mover.other_solid, {}, near)) return;
+    const Between between = closest_points(mover.solid, at, mover.other_solid, {});
+    consider(i, between.distance() - mover.reach);
+    const Pose<double> back = pose.inverse();
+    if (between.distance() == 0) {
+      const Eigen::Vector3d x = closest_points(mover.solid, at, {}, mover.middle).on_a;
+      tried_.emplace_back(back.R * x + back.p);
+    } else if (!(between.distance() < mover.reach)) {
+      return;
+    }
+    tried_.emplace_back(back.R * between.on_a + back.p);
   }
 
   bool collides(int i, const Eigen::VectorXd& lower, const Eigen::VectorXd& upper) {
-    const Eigen::Vector3d* const x = deepest(i);
-    if (x == nullptr) return false;
+    choose_points(i);
+    if (tried_.empty()) return false;
     const Mover& mover = (*movers_)[static_cast<std::size_t>(i)];
     if (!(spread(mover.path.coordinates(), lower, upper) <= kMostSpread)) return false;
     const Eigen::MatrixXd& P = corners_[static_cast<std::size_t>(i)].over(lower, upper);
+    return std::any_of(tried_.begin(), tried_.end(),
+                       [&](const Eigen::Vector3d& x) { return stays_close(mover, P, x); });
+  }
+
+  static bool stays_close(const Mover& mover, const Eigen::MatrixXd& P, const Eigen::Vector3d& x) {
     for (Eigen::Index v = 0; v < P.cols(); ++v) {
       const Eigen::Map<const Eigen::Matrix3d> R(P.col(v).data());
-      const Eigen::Vector3d at = R * *x + P.col(v).tail<3>();
-      const Eigen::Vector3d in_core = mover.into.R * at + mover.into.p;
-      if (beyond(mover.other.half_sizes, mover.reach, in_core) >= 0) return false;
+      const Eigen::Vector3d at = R * x + P.col(v).tail<3>();
+      if (!(beyond(mover, mover.into.R * at + mover.into.p) < 0)) return false;
     }
     return true;
   }
@@ -232,7 +307,8 @@ class CollisionBound final : public Bound {
   std::vector<ControlPoints> corners_;
   Kinematics<double> centre_;
   Eigen::VectorXd q_, part_lower_, part_upper_;
-  double near_ = 0;   ///< how near [m] the nearest mover came at the last centre
+  std::vector<Eigen::Vector3d> tried_;  ///< points in the axes of their link
+  double near_ = 0;                     ///< how near [m] the nearest mover came at the last centre
   int nearest_ = -1;  ///< the nearest mover; -1: none is as near as the box could bring it
 };
 
@@ -242,15 +318,15 @@ std::unique_ptr<Bound> make_collision_bound(const Problem& problem, std::optiona
   const CollisionChecker* const checker = problem.robot.collision.get();
   auto movers = std::make_shared<Movers>();
   for (int pair = 0; checker != nullptr && pair < checker->pairs(); ++pair) {
-    InscribedBoxPair inscribed_boxes;
-    if (!checker->inscribed_boxes(pair, inscribed_boxes)) continue;
-    const bool a = is_segment(inscribed_boxes.a), b = is_segment(inscribed_boxes.b);
-    if (a || !b)
-      movers->push_back(
-          mover(problem, pair, inscribed_boxes.a, inscribed_boxes.b, inscribed_boxes.reach));
-    if (b || !a)
-      movers->push_back(
-          mover(problem, pair, inscribed_boxes.b, inscribed_boxes.a, inscribed_boxes.reach));
+    InnerBodyPair bodies;
+    if (!checker->inner_bodies(pair, bodies)) continue;
+    const bool a = is_segment(bodies.a), b = is_segment(bodies.b);
+    const bool hull = is_hull(bodies.a) || is_hull(bodies.b);
+    if (hull && between_links(problem, bodies.a.link, bodies.b.link).points() > kMostBesideHull) {
+      continue;
+    }
+    if (hull || a || !b) movers->push_back(mover(problem, pair, bodies.a, bodies.b, bodies.reach));
+    if (hull || b || !a) movers->push_back(mover(problem, pair, bodies.b, bodies.a, bodies.reach));
   }
   if (movers->empty()) return nullptr;
   return std::make_unique<CollisionBound>(problem, std::move(movers), left_out.value_or(-1));

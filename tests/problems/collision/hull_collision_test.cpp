@@ -198,8 +198,8 @@ TEST(HullPairs, AgreeWithTheFormulasOfCapsulesAndBoxes) {
       EXPECT_NEAR(found.clearance, known.clearance, 1e-9) << sample;
       EXPECT_EQ(found.link_a, a.link);
       EXPECT_EQ(found.link_b, b.link);
-      InscribedBoxPair none;
-      EXPECT_FALSE(checker->inscribed_boxes(0, none));
+      InnerBodyPair none;
+      EXPECT_FALSE(checker->inner_bodies(0, none));
     }
   }
   EXPECT_GT(collisions, tested / 10);

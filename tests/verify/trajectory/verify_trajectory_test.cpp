@@ -267,7 +267,7 @@ class MeetingPoints : public CollisionChecker {
     return true;
   }
   std::string pair_name(int) const override { return "tip and needle"; }
-  bool inscribed_boxes(int, InscribedBoxPair& pair) const override {
+  bool inner_bodies(int, InnerBodyPair& pair) const override {
     pair.a.link = link_;
     pair.b.link = 0;
     pair.b.placement.p = on_base_;
