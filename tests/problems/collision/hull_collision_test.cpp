@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lib/math/gjk.h"
 #include "maxwrench/task.h"
 #include "problems/collision/collision.h"
-#include "lib/math/gjk.h"
 #include "tests/support/refusals.h"
 #include "tests/support/support.h"
 
@@ -198,8 +198,11 @@ TEST(HullPairs, AgreeWithTheFormulasOfCapsulesAndBoxes) {
       EXPECT_NEAR(found.clearance, known.clearance, 1e-9) << sample;
       EXPECT_EQ(found.link_a, a.link);
       EXPECT_EQ(found.link_b, b.link);
-      InnerBodyPair none;
-      EXPECT_FALSE(checker->inner_bodies(0, none));
+      InnerBodyPair inner;
+      ASSERT_TRUE(checker->inner_bodies(0, inner));
+      EXPECT_EQ(inner.a.points.empty(), a.points.empty());
+      EXPECT_EQ(inner.b.points.empty(), b.points.empty());
+      EXPECT_EQ(inner.reach, a.radius + b.radius + margin);
     }
   }
   EXPECT_GT(collisions, tested / 10);
