@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <queue>
 
-#include "lib/math/quick_hull.h"
 #include "lib/math/gjk.h"
+#include "lib/math/quick_hull.h"
 
 namespace maxwrench {
 namespace {

@@ -9,9 +9,9 @@
 #include <numbers>
 #include <random>
 
+#include "lib/math/distance.h"
 #include "maxwrench/load.h"
 #include "maxwrench/posture.h"
-#include "lib/math/distance.h"
 #include "problems/collision/shapes.h"
 #include "tests/support/support.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "lib/math/random.h"
 #include "lib/math/distance.h"
+#include "lib/math/random.h"
 #include "problems/mesh/capsule.h"
 #include "tests/support/support.h"
 
