@@ -57,14 +57,13 @@ long holding(const GoodPostures& good) {
   return count;
 }
 
-void print_cluster(const Problem& problem, const GoodPostures& good, std::size_t i) {
+void print_cluster(const BoxCoordinates& coordinates, const GoodPostures& good, std::size_t i) {
   const Cluster& cluster = good.clusters[i];
   const bool found = cluster.best.value > -kInfinity;
   fmt::print("{:<3} {:<9} {:>9} {:>10} {:>8}   theta_r {}\n", i + 1,
              good.holds(cluster) ? "holds" : "may hold",
              found ? fmt::format("{:.5f}", cluster.best.value) : "-", cluster.boxes,
              percent(cluster.share), found ? line(cluster.best.theta_r) : " none found");
-  const BoxCoordinates coordinates(problem);
   for (int k = 0; k < coordinates.count(); ++k) {
     fmt::print("{:>44}   {:.3f} to {:.3f} {}\n", coordinates.name(k), cluster.lower[k],
                cluster.upper[k], coordinates.unit(k));
@@ -197,7 +196,8 @@ void print_good(const Problem& problem, const GoodPostures& good, const WithinOp
              holds, static_cast<long>(good.clusters.size()) - holds, good.bounded, good.seconds);
   fmt::print("{:<13} {:>9} {:>10} {:>8}\n", "cluster", problem.unit(), "boxes", "volume");
   const std::size_t printed = std::min(kPrinted, good.clusters.size());
-  for (std::size_t i = 0; i < printed; ++i) print_cluster(problem, good, i);
+  const BoxCoordinates coordinates(problem);
+  for (std::size_t i = 0; i < printed; ++i) print_cluster(coordinates, good, i);
   if (printed < good.clusters.size()) {
     fmt::print("and {} more: --json lists all\n", good.clusters.size() - printed);
   }

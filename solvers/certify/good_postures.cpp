@@ -22,7 +22,7 @@ constexpr double kSideRounding = 1 + 1e-9;
 /// similar if it ends early.
 class GoodBoxes {
  public:
-  GoodBoxes(const Objective& objective, const Bound& bound, double high, const GoodOptions& options,
+  GoodBoxes(const Objective& objective, const Bound& bound, const GoodOptions& options,
             GoodPostures& result)
       : objective_(objective),
         options_(options),
@@ -36,10 +36,10 @@ class GoodBoxes {
     result.upper = objective.upper().array() + kLimitTolerance;
     bound.extend(result.lower, result.upper);
     keep_within_limits(result.lower, result.upper);
-    keep(halving_.root(low_, high));
   }
 
-  void run() {
+  void run(double high) {
+    keep(halving_.root(low_, high));
     while (!ended()) cut_some();
     for (const auto& box : waiting_) list(*box);
     result_.seconds = seconds();
@@ -113,7 +113,9 @@ class GoodBoxes {
 
 }  // namespace
 
-double good_from(double best, double within) { return best - within * std::abs(best); }
+double good_from(double best, double within) {
+  return std::isfinite(best) ? best - within * std::abs(best) : best;
+}
 
 GoodPostures find_good_postures(Objective& objective, const Bound& bound, const Candidate& best,
                                 double high, const GoodOptions& options) {
@@ -130,11 +132,11 @@ GoodPostures find_good_postures(Objective& objective, const Bound& bound, const 
   GoodPostures result;
   result.least = good_from(best.value, options.within);
   result.sure = good_from(high, options.within);
-  GoodBoxes boxes(objective, bound, high, options, result);
+  GoodBoxes boxes(objective, bound, options, result);
   const std::size_t turns = options.turns.size();
   require(turns == 0 || turns == static_cast<std::size_t>(result.lower.size()), "turns",
           static_cast<double>(turns), "one for each coordinate, or none");
-  boxes.run();
+  boxes.run(high);
   find_clusters(objective, best, options, result);
   return result;
 }

@@ -12,7 +12,7 @@ namespace maxwrench {
 /// The finest resolution [rad or m].
 inline constexpr double kLeastResolution = 1e-6;
 
-/// The least good value: best - within |best|.
+/// The least good value: best - within |best|; infinite if the best value is.
 double good_from(double best, double within);
 
 /// A box in which no value exceeds `high`, and which may hold good postures. Its coordinates are
@@ -62,7 +62,9 @@ struct GoodOptions {
 
 /// kProven: no side of a box is longer than the resolution. kBracket: some sides are, and the
 /// reason says which limit ended the search. In both cases, no theta_r within the limits and
-/// outside the boxes has a value of `least` or more, so none within the share of the best.
+/// outside the boxes has a value of `least` or more, so none within the share of the best. Where
+/// coordinates are dependent, the limits of an angle are at most a turn apart, and an angle beyond
+/// them is the same as one within them.
 struct GoodPostures : Verdict {
   double least = 0;              ///< good_from the best known value
   double sure = 0;               ///< good_from the bound: values from here on are certainly good

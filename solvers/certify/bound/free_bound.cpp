@@ -1,10 +1,10 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "solvers/certify/bound/bound_points.h"
 #include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/bound/free_points.h"
 #include "solvers/certify/bound/loop_linear.h"
+#include "solvers/certify/bound/program_rounds.h"
 
 namespace maxwrench {
 namespace {
@@ -21,7 +21,13 @@ class FreeBound final : public Bound {
         linear_(*model_),
         free_(columns_, *model_, set_),
         program_(Eigen::MatrixXd::Zero(own_rows_ + model_->m, set_->actuators()), set_->u_min,
-                 set_->u_max, ProgramPoints::kMost) {
+                 set_->u_max, ProgramPoints::kMost),
+        rounds_(
+            program_, [this](Eigen::Index i, Eigen::Index id) { write_point(i, id); },
+            [this](int id) {
+              const auto size = static_cast<int>(model_->size);
+              return id + 2 * size * free_.pattern(id % size);
+            }) {
     entries_.setZero(own_rows_ + model_->m);
   }
 
@@ -87,36 +93,22 @@ class FreeBound final : public Bound {
   }
 
   void improve_by_rounds(double low, BoxProof& proof) {
-    begin_points(proof.basis);
+    rounds_.begin(proof.basis, *model_, values_.at());
     for (int round = 0; round < kMostRounds; ++round) {
       const double least =
-          program_.solve(low_ - kBelow * std::abs(low_), kMostSteps, local_, solved_);
+          program_.solve(low_ - kBelow * std::abs(low_), kMostSteps, rounds_.columns(), solved_);
       lambda_.noalias() = free_.N() * solved_.head(own_rows_);
       nu_.noalias() = linear_.M().transpose() * solved_.tail(model_->m);
       take(value(), proof);
       if (proof.high <= low) break;
       if (values_.at().maxCoeff() - least <= kClose * std::max(proof.high - low_, 0.0)) break;
-      if (!add_points(least)) break;
+      if (!rounds_.add(values_.at(), least)) break;
     }
-    proof.basis = points_.numbered(local_, program_.first_point());
+    proof.basis = rounds_.basis();
   }
 
-  /// Begins with the points of a larger box's basis and those that are worst at its multiplier;
-  /// without a basis, with the corners of the box.
-  void begin_points(const std::vector<int>& basis) {
-    local_ = points_.begin(basis, program_.first_point());
-    if (basis.empty()) points_.add_corners(model_->coordinates.chain, model_->size);
-    write_points(0);
-    if (!basis.empty()) add_points(-kInfinity);
-  }
-
-  void write_points(Eigen::Index from) {
-    program_.set_points(points_.count());
-    for (Eigen::Index i = from; i < points_.count(); ++i) write_point(i);
-  }
-
-  void write_point(Eigen::Index i) {
-    const Eigen::Index id = points_.ids()[static_cast<std::size_t>(i)], size = model_->size;
+  void write_point(Eigen::Index i, Eigen::Index id) {
+    const Eigen::Index size = model_->size;
     const double t = id / size % 2 != 0 ? values_.most_t() : values_.least_t();
     const Eigen::Index v = id % size;
     box_.read(v);
@@ -128,16 +120,6 @@ class FreeBound final : public Bound {
     program_.costs()[i] = t;
   }
 
-  /// Returns false if there are no points to add, or no room for them.
-  bool add_points(double least) {
-    const Eigen::Index before = points_.count();
-    const auto size = static_cast<int>(model_->size);
-    const auto number = [&](int id) { return id + 2 * size * free_.pattern(id % size); };
-    if (!points_.add_largest(values_.at(), least, number)) return false;
-    write_points(before);
-    return true;
-  }
-
   std::shared_ptr<const LoopModel> model_;
   std::shared_ptr<const FreeColumns> columns_;
   std::shared_ptr<const Zonotope> set_;
@@ -147,10 +129,9 @@ class FreeBound final : public Bound {
   FreePoints free_;
   MultiplierProgram program_;
   PointValues values_;
-  ProgramPoints points_;
+  ProgramRounds rounds_;
   double low_ = 0, high_ = 0;
   Eigen::VectorXd lambda_, nu_, solved_, both_, sizes_, entries_, load_;
-  std::vector<int> local_;
 };
 
 }  // namespace

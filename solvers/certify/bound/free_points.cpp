@@ -13,7 +13,7 @@ namespace {
 
 constexpr int kCentreSteps = 60;
 constexpr double kSmallShare = 1e-3;  ///< of the largest term of s(lambda)
-constexpr double kLeastWeight = 1e-5;
+constexpr double kLeastWidth = 1e-5;
 constexpr double kRidge = 1e-13;
 
 Matrix6Xd free_components(const Problem& problem) {
@@ -143,7 +143,7 @@ void FreePoints::find_P() {
   own_.noalias() = set_->B.transpose() * lambda_;
   own_ = own_.cwiseAbs().cwiseProduct(half_);
   own_ = kSmallShare * own_.maxCoeff() / own_.array().max(1e-300);
-  own_ = own_.cwiseMin(1).cwiseMax(kLeastWeight).cwiseProduct(half_);
+  own_ = own_.cwiseMin(1).cwiseMax(kLeastWidth).cwiseProduct(half_);
   S_.noalias() = set_->B * own_.cwiseAbs2().asDiagonal() * set_->B.transpose();
   S_.diagonal() += kRidge * S_.diagonal().maxCoeff() * Eigen::VectorXd::Ones(n_);
   llt_.compute(S_);

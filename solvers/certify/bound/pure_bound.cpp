@@ -5,13 +5,12 @@
 #include <stdexcept>
 
 #include "lib/measure/closed_form.h"
-#include "solvers/certify/bound/bound_points.h"
 #include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/bound/box_support.h"
 #include "solvers/certify/bound/ellipsoid_support.h"
 #include "solvers/certify/bound/loop_box.h"
 #include "solvers/certify/bound/loop_linear.h"
-#include "solvers/certify/bound/multiplier_program.h"
+#include "solvers/certify/bound/program_rounds.h"
 #include "solvers/certify/bound/thrust_points.h"
 
 namespace maxwrench {
@@ -38,7 +37,10 @@ class PureBound final : public Bound {
         linear_(*model_),
         program_(extended_B(), set_->u_min.head(found_by_program() ? set_->actuators() : 0),
                  set_->u_max.head(found_by_program() ? set_->actuators() : 0),
-                 ProgramPoints::kMost) {
+                 ProgramPoints::kMost),
+        rounds_(
+            program_, [this](Eigen::Index i, Eigen::Index id) { write_point(i, id); },
+            [this](int id) { return numbered(id); }) {
     if (!found_by_program()) ellipsoid_.emplace(K);
     entries_.setZero(free_rows() + equation_rows_);
   }
@@ -178,11 +180,11 @@ class PureBound final : public Bound {
   }
 
   void improve_by_rounds(double low, double high, BoxProof& proof) {
-    begin_points(proof.basis);
+    rounds_.begin(proof.basis, *model_, values_.at());
     const double least_t = values_.least_t();
     for (int round = 0; round < kMostRounds; ++round) {
-      const double least =
-          program_.solve(least_t - kBelow * std::abs(least_t), kMostSteps, local_, solved_);
+      const double least = program_.solve(least_t - kBelow * std::abs(least_t), kMostSteps,
+                                          rounds_.columns(), solved_);
       if (!ellipsoid_) lambda_ = solved_.head(rows());
       for (const int row : model_->dropped) lambda_[row] = 0;
       nu_.noalias() =
@@ -192,27 +194,13 @@ class PureBound final : public Bound {
       const double now = s_ + values_.at().maxCoeff();
       const bool finite = std::isfinite(proof.high);
       if (finite && now - least <= kClose * std::max(proof.high - least_t, 0.0)) break;
-      if (!add_points(least)) break;
+      if (!rounds_.add(values_.at(), least - s_)) break;
     }
-    proof.basis = points_.numbered(local_, program_.first_point());
+    proof.basis = rounds_.basis();
   }
 
-  /// Begins with the points of a larger box's basis and those that are worst at its multiplier;
-  /// without a basis, with the corners of the box.
-  void begin_points(const std::vector<int>& basis) {
-    local_ = points_.begin(basis, program_.first_point());
-    if (basis.empty()) points_.add_corners(model_->coordinates.chain, model_->size);
-    write_points(0);
-    if (!basis.empty()) add_points(-kInfinity);
-  }
-
-  void write_points(Eigen::Index from) {
-    program_.set_points(points_.count());
-    for (Eigen::Index i = from; i < points_.count(); ++i) write_point(i);
-  }
-
-  void write_point(Eigen::Index i) {
-    const Eigen::Index id = points_.ids()[static_cast<std::size_t>(i)], size = model_->size;
+  void write_point(Eigen::Index i, Eigen::Index id) {
+    const Eigen::Index size = model_->size;
     const double t = id / size % 2 != 0 ? values_.most_t() : values_.least_t();
     const Eigen::Index v = id % size;
     box_.read(v);
@@ -231,16 +219,6 @@ class PureBound final : public Bound {
     entries_.segment(rows, rows_used_).noalias() = linear_.M().topRows(rows_used_) * box_.f();
     for (Eigen::Index j = 0; j < entries_.size(); ++j) program_.row(j)[i] = entries_[j];
     program_.costs()[i] = cost;
-  }
-
-  /// Returns false if there are no points to add, or no room for them.
-  bool add_points(double least) {
-    const Eigen::Index before = points_.count();
-    if (!points_.add_largest(values_.at(), least - s_, [this](int id) { return numbered(id); })) {
-      return false;
-    }
-    write_points(before);
-    return true;
   }
 
   /// The number of a point with the thrusters' forces that are worst for lambda.
@@ -264,10 +242,9 @@ class PureBound final : public Bound {
   MultiplierProgram program_;
   Eigen::Index rows_used_ = 0;
   PointValues values_;
-  ProgramPoints points_;
+  ProgramRounds rounds_;
   double s_ = 0;
   Eigen::VectorXd lambda_, nu_, solved_, both_, reach_, sizes_, entries_, load_;
-  std::vector<int> local_;
 };
 
 }  // namespace

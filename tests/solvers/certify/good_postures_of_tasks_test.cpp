@@ -149,7 +149,6 @@ void expect_all_ik_solutions(const Listed& at) {
   }
   for (std::size_t i = 0; i < good.clusters.size(); ++i) {
     const Cluster& cluster = good.clusters[i];
-    EXPECT_LE(cluster.share, 1);
     if (cluster.best.value == -kInfinity) continue;
     EXPECT_EQ(near(cluster.x), static_cast<int>(i));
     postures_at(cluster.best.theta_r, postures);
