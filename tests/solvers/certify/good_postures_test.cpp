@@ -136,6 +136,7 @@ TEST(GoodPostures, RejectOptionsOutOfRange) {
 TEST(GoodPostures, AreAShareOfTheSize) {
   EXPECT_DOUBLE_EQ(good_from(50, 0.1), 45);
   EXPECT_DOUBLE_EQ(good_from(-50, 0.1), -55);
+  EXPECT_EQ(good_from(kInfinity, 0.1), kInfinity);  // without a bound nothing is certainly good
   Multimodal multimodal = multimodal_at({Eigen::VectorXd::Constant(1, 0.2)});
   multimodal.top = -2;
   GoodOptions options;
