@@ -84,7 +84,7 @@ bool moves(const FormShape& shape, std::size_t variable,
 constexpr double kHair = 1e-9;
 
 /// A box of a pair with a hull is cut into this many parts at most, cuts included.
-constexpr int kMostParts = 200;
+constexpr int kMostParts = 1000;
 
 }  // namespace
 

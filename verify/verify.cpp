@@ -114,7 +114,10 @@ class TreeWalk {
     ++done.boxes;
     const double before = box.high;
     if (node.reason == Reason::kCollision) {
-      if (collision_.collides(box.lower, box.upper, node.pair)) box.high = -kInfinity;
+      if (!collision_.collides(box.lower, box.upper, node.pair)) {
+        return reject(box, what_is_open(box, node));  // such boxes are not cut
+      }
+      box.high = -kInfinity;
     } else if (node.reason == Reason::kNoPosture) {
       if (off_postures_.set(box.lower, box.upper) && off_postures_.excluded(multiplier(node))) {
         box.high = -kInfinity;

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Vector3d;
 
 /// GJK finds a distance in about ten steps. Cylinders, which are curved, need more.
-constexpr int kMostSteps = 200;
+constexpr int kMostIterations = 200;
 /// A distance is known if its bounds differ by less than this, relative to it, plus the rounding
 /// of the points.
 constexpr double kRelative = 1e-13;
@@ -170,7 +170,7 @@ Nearness gjk(const ConvexCore& a, const Pose<double>& pose_a, const ConvexCore& 
   simplex.v = pose_a.p - pose_b.p;
   if (simplex.v.isZero(0)) simplex.v = Vector3d::UnitX();
   double size = 0;  // of the points in use, which their rounding is relative to
-  for (int step = 0; step < kMostSteps; ++step) {
+  for (int step = 0; step < kMostIterations; ++step) {
     const Vector3d d = -simplex.v;
     Corner corner;
     corner.on_a = pose_a.R * support(a, pose_a.R.transpose() * d) + pose_a.p;

@@ -18,6 +18,7 @@ constexpr std::size_t kShare = 2;
 /// One box in this many has its centre evaluated, and every box that is smaller than kSmallBox.
 constexpr std::size_t kSeldom = 32;
 constexpr double kSmallBox = 1e-3;
+constexpr int kPatience = 1000;
 /// The approximate number of evaluations of a local search.
 constexpr int kLocalSearchEvaluations = 500;
 
@@ -125,13 +126,16 @@ class BranchAndBound {
     }
   }
 
-  /// Looks for better values at the centres of one box in kSeldom and of all small boxes.
+  /// Looks for better values at the centres of one box in kSeldom and of all small boxes, until
+  /// kPatience centres in a row have brought nothing.
   void improve() {
     for (std::size_t i = 0; i < parents_.size(); ++i) {
       const CertifiedBox& box = *parents_[i];
       const double width = widest(box.lower, box.upper, left_out_);
-      if (i % kSeldom == 0 || width < kSmallBox)
-        local_search((box.lower + box.upper).head(objective_.dimension()) / 2, width / 4);
+      if (i % kSeldom != 0 && (width >= kSmallBox || in_vain_ >= kPatience)) continue;
+      const double before = result_.best.value;
+      local_search((box.lower + box.upper).head(objective_.dimension()) / 2, width / 4);
+      in_vain_ = result_.best.value > before ? 0 : in_vain_ + 1;
     }
   }
 
@@ -174,6 +178,7 @@ class BranchAndBound {
   const CertifyOptions& options_;
   Halving halving_;
   const int left_out_;
+  int in_vain_ = 0;  ///< centres in a row without a better value
   std::chrono::steady_clock::time_point start_;
   CertifiedBoxes waiting_;  ///< a heap
   CertifiedBoxes parents_;

@@ -108,7 +108,7 @@ class Tampering {
  public:
   Tampering(const WrittenProof& at, std::uint64_t seed) : at_(at), random_(seed) {}
 
-  static constexpr int kWays = 8;
+  static constexpr int kWays = 9;
   ProofCertificate next(int way) {
     ProofCertificate proof = at_.proof;
     Tree& tree = proof.tree;
@@ -123,6 +123,11 @@ class Tampering {
     if (way == 5) proof.value += share * std::abs(proof.value);  // the incumbent raised
     if (way == 6) proof.bound = proof.value - share * std::abs(proof.value);
     if (way == 7) shrink_root(proof, share);
+    if (way == 8) {  // a box that is cut is said to collide
+      Tree::Node& cut = tree.nodes[draw(tree, false)];
+      cut.reason = Tree::Reason::kCollision;
+      cut.pair = -1;
+    }
     return proof;
   }
 

@@ -14,8 +14,8 @@ namespace {
 /// collision checks.
 constexpr double kDepth = 1e-6;
 
-/// Pairs with a hull and more control points than this (8 joints) have no proof: they would take
-/// too much time, and are many.
+/// Pairs with a hull and more control points than this (8 joints that turn) have no proof: they
+/// would take too much time, and are many.
 constexpr Eigen::Index kMostBesideHull = 6561;
 
 /// The coordinates of a posture that move one link relative to the other.
@@ -101,11 +101,9 @@ ConvexCore solid_of(const InnerBody& core) {
 }
 
 /// The same for a core that may be a hull. The nearest point of a hull is any mean of its points:
-/// it proves that x is within reach, wherever it comes from. The depth of a point in a hull is not
-/// known, so without a reach nothing is proved.
+/// it proves that x is within reach, wherever it comes from.
 double beyond(const Mover& mover, const Eigen::Vector3d& x) {
   if (!is_hull(mover.other)) return beyond(mover.other.half_sizes, mover.reach, x);
-  if (!(mover.reach > 0)) return kInfinity;
   return (x - point_near(mover.other_solid, x, mover.reach)).norm() - mover.reach;
 }
 
@@ -262,7 +260,7 @@ class CollisionBound final : public Bound {
   void choose_closest(int i, const Pose<double>& pose) {
     const Mover& mover = (*movers_)[static_cast<std::size_t>(i)];
     const Pose<double> at = pose * mover.core.placement;
-    const double near = std::max(mover.reach, 0.0) + std::max(near_, 0.0);
+    const double near = mover.reach + std::max(near_, 0.0);
     if (!closer_than(mover.solid, at, mover.other_solid, {}, near)) return;
     const Between between = closest_points(mover.solid, at, mover.other_solid, {});
     consider(i, between.distance() - mover.reach);
@@ -312,6 +310,13 @@ class CollisionBound final : public Bound {
   int nearest_ = -1;  ///< the nearest mover; -1: none is as near as the box could bring it
 };
 
+/// `verify` finds its own point of the inner bodies. Without a reach, which of the points in both
+/// of them is deep enough is a matter of luck.
+bool has_proof_with_hull(const Problem& problem, const InnerBodyPair& bodies) {
+  return bodies.reach > kDepth &&
+         between_links(problem, bodies.a.link, bodies.b.link).points() <= kMostBesideHull;
+}
+
 }  // namespace
 
 std::unique_ptr<Bound> make_collision_bound(const Problem& problem, std::optional<int> left_out) {
@@ -322,9 +327,7 @@ std::unique_ptr<Bound> make_collision_bound(const Problem& problem, std::optiona
     if (!checker->inner_bodies(pair, bodies)) continue;
     const bool a = is_segment(bodies.a), b = is_segment(bodies.b);
     const bool hull = is_hull(bodies.a) || is_hull(bodies.b);
-    if (hull && between_links(problem, bodies.a.link, bodies.b.link).points() > kMostBesideHull) {
-      continue;
-    }
+    if (hull && !has_proof_with_hull(problem, bodies)) continue;
     if (hull || a || !b) movers->push_back(mover(problem, pair, bodies.a, bodies.b, bodies.reach));
     if (hull || b || !a) movers->push_back(mover(problem, pair, bodies.b, bodies.a, bodies.reach));
   }
