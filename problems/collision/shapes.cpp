@@ -22,6 +22,9 @@ double bounding_radius(const Shape& shape) {
   return farthest + shape.radius;
 }
 
+/// A hull is centred if it is by this share of its size: what was centred is not moved again.
+constexpr double kCentred = 1e-12;
+
 void centre_hull(Shape& shape) {
   if (!is(shape, Shape::Kind::kHull)) return;
   Eigen::Vector3d low = shape.points[0], high = low;
@@ -30,6 +33,7 @@ void centre_hull(Shape& shape) {
     high = high.cwiseMax(x);
   }
   const Eigen::Vector3d middle = (low + high) / 2;
+  if (middle.norm() <= kCentred * (high - low).norm()) return;
   for (Eigen::Vector3d& x : shape.points) x -= middle;
   shape.placement.p += shape.placement.R * middle;
 }
