@@ -18,7 +18,7 @@ constexpr std::size_t kShare = 2;
 /// One box in this many has its centre evaluated, and every box that is smaller than kSmallBox.
 constexpr std::size_t kSeldom = 32;
 constexpr double kSmallBox = 1e-3;
-constexpr int kPatience = 1000;
+constexpr int kMostInVain = 1000;
 /// The approximate number of evaluations of a local search.
 constexpr int kLocalSearchEvaluations = 500;
 
@@ -127,12 +127,12 @@ class BranchAndBound {
   }
 
   /// Looks for better values at the centres of one box in kSeldom and of all small boxes, until
-  /// kPatience centres in a row have brought nothing.
+  /// kMostInVain centres in a row have brought nothing.
   void improve() {
     for (std::size_t i = 0; i < parents_.size(); ++i) {
       const CertifiedBox& box = *parents_[i];
       const double width = widest(box.lower, box.upper, left_out_);
-      if (i % kSeldom != 0 && (width >= kSmallBox || in_vain_ >= kPatience)) continue;
+      if (i % kSeldom != 0 && (width >= kSmallBox || in_vain_ >= kMostInVain)) continue;
       const double before = result_.best.value;
       local_search((box.lower + box.upper).head(objective_.dimension()) / 2, width / 4);
       in_vain_ = result_.best.value > before ? 0 : in_vain_ + 1;
