@@ -22,7 +22,8 @@ double bounding_radius(const Shape& shape) {
   return farthest + shape.radius;
 }
 
-/// A hull is centred if it is by this share of its size: what was centred is not moved again.
+/// A hull is centred if its middle is at most this share of its size from the origin. A centred one
+/// is not moved, so that centring twice changes no digit.
 constexpr double kCentred = 1e-12;
 
 void centre_hull(Shape& shape) {

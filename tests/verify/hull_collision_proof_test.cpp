@@ -161,6 +161,31 @@ TEST(HullCollisionProof, ProvesSmallBoxes) {
   EXPECT_GT(deep, samples(300));
 }
 
+/// What an object remembers of one pair says nothing of another one.
+TEST(HullCollisionProof, PairsInTurnAreAsAlone) {
+  Problem problem = load_problem("uvms/valve");
+  Random random(13);
+  int yes = 0, no = 0;
+  for (int sample = 0; sample < samples(60); ++sample) {
+    std::vector<Shape> shapes;
+    for (int link = 0; link < 4; ++link) shapes.push_back(random_hull(random, link));
+    problem.robot.collision = make_collision_checker(shapes, {}, 0.05);
+    const FormModel model(problem);
+    CollisionProof in_turn(problem, model);
+    for (int each = 0; each < 5; ++each) {
+      const RandomBox box = random_box(problem, random);
+      for (int pair = 0; pair < problem.robot.collision->pairs(); ++pair) {
+        CollisionProof alone(problem, model);
+        const bool collide = alone.collides(box.lower, box.upper, pair);
+        (collide ? yes : no) += 1;
+        EXPECT_EQ(in_turn.collides(box.lower, box.upper, pair), collide) << sample << " " << pair;
+      }
+    }
+  }
+  EXPECT_GT(yes, samples(60));
+  EXPECT_GT(no, samples(60));
+}
+
 /// Points that are no numbers prove nothing.
 TEST(HullCollisionProof, ProvesNothingOfNoNumbers) {
   class NoNumbers : public CollisionChecker {

@@ -100,8 +100,8 @@ ConvexCore solid_of(const InnerBody& core) {
   return solid;
 }
 
-/// The same for a core that may be a hull. The nearest point of a hull is any mean of its points:
-/// it proves that x is within reach, wherever it comes from.
+/// The same for a core that may be a hull. Any mean of the hull's points can prove that x is within
+/// reach.
 double beyond(const Mover& mover, const Eigen::Vector3d& x) {
   if (!is_hull(mover.other)) return beyond(mover.other.half_sizes, mover.reach, x);
   return (x - point_near(mover.other_solid, x, mover.reach)).norm() - mover.reach;
