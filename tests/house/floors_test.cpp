@@ -207,23 +207,45 @@ TEST(Floors, IncludeDepth) {
   }
 }
 
+/// The constants that a file defines in lines that begin with `begin`.
+std::vector<std::string> constants_of(const std::string& file, const std::string& begin) {
+  std::vector<std::string> names;
+  std::istringstream text(read_text(fs::path(MAXWRENCH_SOURCE_DIR) / file));
+  for (std::string line; std::getline(text, line);) {
+    if (!line.starts_with(begin)) continue;
+    std::string name = line.substr(0, line.find_first_of("={["));
+    name.erase(name.find_last_not_of(' ') + 1);
+    names.push_back(name.substr(name.find_last_of(' ') + 1));
+  }
+  return names;
+}
+
 /// Two headers that define the same constant differently break the one-definition rule as soon as
 /// one program includes both.
 TEST(Floors, ConstantsOfHeadersAreDefinedOnce) {
   std::map<std::string, std::string> where;
   for (const auto& [file, source] : sources()) {
     if (!file.ends_with(".h")) continue;
-    std::istringstream text(read_text(fs::path(MAXWRENCH_SOURCE_DIR) / file));
-    for (std::string line; std::getline(text, line);) {
-      if (!line.starts_with("inline constexpr")) continue;
-      std::string name = line.substr(0, line.find_first_of("={["));
-      name.erase(name.find_last_not_of(' ') + 1);
-      name = name.substr(name.find_last_of(' ') + 1);
+    for (const std::string& name : constants_of(file, "inline constexpr")) {
       // The two sides of an #if are one file's business.
       EXPECT_EQ(where.emplace(name, file).first->second, file) << name;
     }
   }
   EXPECT_GT(where.size(), 10U);
+}
+
+/// A build may join all sources of a library into one.
+TEST(Floors, ConstantsOfSourcesAreDefinedOnceInALibrary) {
+  std::map<std::string, std::string> where;
+  for (const auto& [file, source] : sources()) {
+    const std::string folder = folder_of(file);
+    const int floor = floor_of(folder);
+    if (!file.ends_with(".cpp") || floor < 0 || floor > floor_of("solvers")) continue;
+    for (const std::string& name : constants_of(file, "constexpr")) {
+      EXPECT_EQ(where.emplace(folder + " " + name, file).first->second, file) << name;
+    }
+  }
+  EXPECT_GT(where.size(), 100U);
 }
 
 }  // namespace
