@@ -145,6 +145,10 @@ bool add_block(Zonotope& zonotope, const Block& block, long max_subsets) {
     VectorXd full = VectorXd::Zero(zonotope.dimension());
     full(block.rows) = normal;
     add_normal(zonotope, full);
+    // Blocks are in the order of their first rows.
+    const int end = block.rows.back() + 1;
+    zonotope.N_begin.push_back(block.rows.front());
+    zonotope.N_end.push_back(zonotope.N_end.empty() ? end : std::max(end, zonotope.N_end.back()));
   }
   return true;
 }
@@ -173,7 +177,11 @@ Zonotope make_zonotope(MatrixXd B, VectorXd u_min, VectorXd u_max, long max_subs
   zonotope.has_facets = std::all_of(blocks.begin(), blocks.end(), [&](const Block& block) {
     return add_block(zonotope, block, max_subsets);
   });
-  if (!zonotope.has_facets) zonotope.N.resize(zonotope.dimension(), 0);
+  if (!zonotope.has_facets) {
+    zonotope.N.resize(zonotope.dimension(), 0);
+    zonotope.N_begin.clear();
+    zonotope.N_end.clear();
+  }
   set_supports(zonotope);
   zonotope.N_nonzero = zonotope.N.sparseView();
   zonotope.N_nonzero.makeCompressed();

@@ -52,10 +52,6 @@ struct PostureEvaluator::Workspace {
     if (!p.dependent.empty()) primary.emplace(p);
     if (p.contact) second.emplace(p);
     if (!p.scenarios.empty()) slopes.emplace(p);
-    posture.q.resize(model.q.size());
-    posture.links = model.kinematics.links();
-    posture.J = model.J;
-    posture.tau_d = model.tau_d;
   }
 
   Fault find_beyond(const Eigen::VectorXd& theta_r) const {
@@ -103,12 +99,12 @@ struct PostureEvaluator::Workspace {
     for (int i = 0; i < found; ++i) {
       placed.second = i;
       if (!second->within_limits(i)) {
-        turn_down(posture.ik_solutions.beyond_limit, kBeyondSecondArm);
+        turn_down(model.ik_solutions.beyond_limit, kBeyondSecondArm);
         continue;
       }
       place_second(i);
       if (near_singular(problem.robot, *problem.contact, model.J, model.J_2)) {
-        turn_down(posture.ik_solutions.singular, kSingularContacts);
+        turn_down(model.ik_solutions.singular, kSingularContacts);
       } else {
         try_collision();
       }
@@ -116,14 +112,14 @@ struct PostureEvaluator::Workspace {
   }
 
   void try_collision() {
-    if (collides()) return turn_down(posture.ik_solutions.collision, kSelfCollision);
-    ++posture.ik_solutions.found;
+    if (collides()) return turn_down(model.ik_solutions.collision, kSelfCollision);
+    ++model.ik_solutions.found;
     valid.push_back(placed);
   }
 
   /// Counts the current IK solution as invalid.
   void turn_down(long& count, const Fault& why) {
-    ++posture.ik_solutions.found;
+    ++model.ik_solutions.found;
     ++count;
     blame(why);
   }
@@ -146,12 +142,12 @@ struct PostureEvaluator::Workspace {
     for (int i = 0; i < found; ++i) {
       placed = {i, -1};
       if (!primary->place(i)) {
-        turn_down(posture.ik_solutions.beyond_limit, kBeyondDependent);
+        turn_down(model.ik_solutions.beyond_limit, kBeyondDependent);
         continue;
       }
       model.evaluate_at(theta_r, primary->z());
       if (primary->is_singular(model.J)) {
-        turn_down(posture.ik_solutions.singular, kSingularPosture);
+        turn_down(model.ik_solutions.singular, kSingularPosture);
       } else if (second) {
         try_second();
       } else {
@@ -166,7 +162,7 @@ struct PostureEvaluator::Workspace {
     valid.clear();
     fault = {};
     shown = placed = {};
-    posture.ik_solutions = {};
+    model.ik_solutions = {};
     if (second) {
       model.q = problem.contact->q_rest;
       second->touch(theta_r);
@@ -183,7 +179,7 @@ struct PostureEvaluator::Workspace {
         try_collision();
       }
     }
-    IkCounts& counts = posture.ik_solutions;
+    IkCounts& counts = model.ik_solutions;
     counts.most = counts.found;
     counts.unreachable = counts.found == 0;
     counts.incomplete = primary && !primary->complete();
@@ -200,19 +196,14 @@ struct PostureEvaluator::Workspace {
     }
   }
 
-  void read_model(const Eigen::VectorXd& theta_r) {
-    if (second) model.kinematics.gravity_and_buoyancy(model.base.R, model.tau_d);
-    posture.theta_r = theta_r;
-    posture.base = model.base;
-    posture.q = model.q;
-    posture.links = model.kinematics.links();
-    posture.J = model.J;
-    posture.tau_d = model.tau_d;
-    if (problem.free.wrench_turns) posture.turn = model.pose.R * problem.pose.R.transpose();
+  /// Fills what only the result needs.
+  void complete() {
+    model.links = model.kinematics.links();
+    if (problem.free.wrench_turns) model.turn = model.pose.R * problem.pose.R.transpose();
     if (!second) return;
-    posture.J_2 = model.J_2;
-    posture.C_2 = second->C_2();
-    posture.contact = second->contact();
+    model.kinematics.gravity_and_buoyancy(model.base.R, model.tau_d);
+    model.C_2 = second->C_2();
+    model.contact = second->contact();
   }
 
   /// All of `PostureEvaluator::evaluate`.
@@ -222,12 +213,12 @@ struct PostureEvaluator::Workspace {
       fault = beyond;
       valid.clear();
     }
-    read_model(theta_r);
-    posture.violation = fault.violation;
+    complete();
+    model.violation = fault.violation;
     if (fault.reason) {
-      posture.conclude(Status::kInvalidPosture, fault.reason);
+      model.conclude(Status::kInvalidPosture, fault.reason);
     } else {
-      posture.conclude(Status::kValid);
+      model.conclude(Status::kValid);
     }
   }
 
@@ -309,7 +300,6 @@ struct PostureEvaluator::Workspace {
   IkSolution shown, placed;  ///< where the fault is; where the model is
   const Matrix6Xd none;      ///< no seeds
   const Eigen::VectorXd none_by_q;
-  Posture posture;
 };
 
 PostureEvaluator::PostureEvaluator(const Problem& problem, bool check_collision)
@@ -320,7 +310,7 @@ const Posture& PostureEvaluator::evaluate(const Eigen::VectorXd& theta_r) {
   Workspace& ws = *workspace_;
   require_theta_r(ws.problem, theta_r);
   ws.run(theta_r);
-  return ws.posture;
+  return ws.model;
 }
 
 int PostureEvaluator::ik_solutions() const { return static_cast<int>(workspace_->valid.size()); }
@@ -329,10 +319,10 @@ const Posture& PostureEvaluator::select(int ik_solution) {
   Workspace& ws = *workspace_;
   assert(ik_solution >= 0 && ik_solution < ik_solutions());
   const IkSolution& chosen = ws.valid[static_cast<std::size_t>(ik_solution)];
-  if (chosen == ws.placed) return ws.posture;
+  if (chosen == ws.placed) return ws.model;
   ws.place(chosen);
-  ws.read_model(ws.model.theta_r);
-  return ws.posture;
+  ws.complete();
+  return ws.model;
 }
 
 void PostureEvaluator::pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,

@@ -8,20 +8,18 @@
 #include "lib/posture/free_pose.h"
 #include "lib/robot/chain.h"
 #include "lib/robot/kinematics.h"
+#include "maxwrench/posture.h"
 #include "maxwrench/problem.h"
 
 namespace maxwrench {
 
-struct PostureState {
-  explicit PostureState(const Problem& p)
-      : problem(p),
-        pose(p.pose),
-        kinematics(p.robot),
-        theta_r(Eigen::VectorXd::Constant(p.redundancy(), kNothing)),
-        q(p.robot.joints.size()),
-        J(6, p.robot.velocities()),
-        J_2(6, p.contact ? p.robot.velocities() : 0),
-        tau_d(p.robot.velocities()) {
+/// The posture that a workspace moves, with what computes it.
+struct PostureState : Posture {
+  explicit PostureState(const Problem& p) : problem(p), pose(p.pose), kinematics(p.robot) {
+    theta_r.setConstant(p.redundancy(), kNothing);
+    J.setZero(6, p.robot.velocities());
+    J_2.setZero(6, p.contact ? p.robot.velocities() : 0);
+    tau_d.setZero(p.robot.velocities());
     q = p.contact ? p.contact->q_rest : resting_joints(p.robot);
     if (p.contact) second = carried_by(p.robot, p.contact->follow);
     for (int i = 0; i < static_cast<int>(p.robot.joints.size()); ++i) {
@@ -78,10 +76,6 @@ struct PostureState {
   Kinematics<double> kinematics;
   std::vector<int> second;  ///< the joints that move with a second arm's IK solution
   std::vector<int> first;   ///< all others
-  Eigen::VectorXd theta_r, q;
-  Pose<double> base;
-  Matrix6Xd J, J_2;
-  Eigen::VectorXd tau_d;
 };
 
 }  // namespace maxwrench

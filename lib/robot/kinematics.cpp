@@ -110,24 +110,25 @@ void Kinematics<T>::gravity_and_buoyancy(const Matrix3<T>& R_base, VectorX<T>& t
   for (int i = 0; i <= joints; ++i) {
     carried_moment_[i] = links_[i].R * link_moment_[i] + links_[i].p * link_mass_[i];
   }
-  for (int i = joints; i-- > 0;)
-    carried_moment_[robot_->joints[i].parent] += carried_moment_[i + 1];
-
   tau_d.resize(robot_->velocities());
+  const int axes = static_cast<int>(robot_->base_axes.size());
+  for (int i = joints; i-- > 0;) {
+    const Joint& joint = robot_->joints[i];
+    const Pose<T>& link = links_[i + 1];
+    const Vector3<T> moment = carried_moment_[i + 1];
+    const Vector3<T> axis = joint_axis(static_cast<std::size_t>(i));
+    carried_moment_[joint.parent] += moment;
+    if (joint.type == JointType::kRevolute) {
+      const Vector3<T> arm = moment - link.p * carried_mass_[i + 1];
+      tau_d[axes + i] = -axis.dot(Vector3<T>(arm.cross(pull)));
+    } else {
+      tau_d[axes + i] = -carried_mass_[i + 1] * axis.dot(pull);
+    }
+  }
   const Vector3<T> base_moment = carried_moment_[0].cross(pull);
   int row = 0;
   for (const int axis : robot_->base_axes) {
     tau_d[row++] = axis < 3 ? T(-carried_mass_[0] * pull[axis]) : T(-base_moment[axis - 3]);
-  }
-  for (int i = 0; i < joints; ++i) {
-    const Pose<T>& link = links_[i + 1];
-    const Vector3<T> axis = joint_axis(static_cast<std::size_t>(i));
-    if (robot_->joints[i].type == JointType::kRevolute) {
-      const Vector3<T> arm = carried_moment_[i + 1] - link.p * carried_mass_[i + 1];
-      tau_d[row++] = -axis.dot(Vector3<T>(arm.cross(pull)));
-    } else {
-      tau_d[row++] = -carried_mass_[i + 1] * axis.dot(pull);
-    }
   }
 }
 

@@ -83,13 +83,22 @@ Pair make_pair(const std::vector<Shape>& shapes, int i, int j, double margin) {
   return pair;
 }
 
-/// Whether a plane across the line of their centres separates capsules. With d = q - p, their axes
-/// are at least (|d|^2 - |d'h_a| - |d'h_b|) / |d| apart.
+/// Whether a plane separates capsules. With d = q - p and a normal n of the plane, their axes are
+/// at least (n'd - |n'h_a| - |n'h_b|) / |n| apart. The first n is d. The second one is the line
+/// from q to the nearest point of the axis of a, which is better if that is long.
 bool separated_capsules(const Placed& a, const Placed& b, double radius) {
   const Eigen::Vector3d d = b.pose.p - a.pose.p;
+  const double along_a = d.dot(a.half_axis);
+  const auto separates = [&](double n_d, double n_a, double n_b, double squared) {
+    const double apart = n_d - std::abs(n_a) - std::abs(n_b);
+    return apart > 0 && apart * apart > radius * radius * squared;
+  };
   const double squared = d.squaredNorm();
-  const double apart = squared - std::abs(d.dot(a.half_axis)) - std::abs(d.dot(b.half_axis));
-  return apart > 0 && apart * apart > radius * radius * squared;
+  if (separates(squared, along_a, d.dot(b.half_axis), squared)) return true;
+  const double length = a.half_axis.squaredNorm();
+  if (!(length > 0)) return false;
+  const Eigen::Vector3d n = d - std::clamp(along_a / length, -1.0, 1.0) * a.half_axis;
+  return separates(n.dot(d), n.dot(a.half_axis), n.dot(b.half_axis), n.squaredNorm());
 }
 
 bool capsules_closer(const Placed& a, const Placed& b, double radius) {

@@ -69,8 +69,10 @@ class Ray {
   template <int L>
   void cross(const Zonotope& set, const Eigen::VectorXd& tau, const double* a, Eigen::Index j) {
     SimdPack<L> slope = SimdPack<L>::Zero(), value = SimdPack<L>::Zero();  // N'a, N'tau
-    const double* row = set.N.data() + j;
-    for (Eigen::Index i = 0; i < tau.size(); ++i, row += set.N.cols()) {
+    const Eigen::Index begin = set.N_begin[static_cast<std::size_t>(j)];
+    const Eigen::Index end = set.N_end[static_cast<std::size_t>(j + L - 1)];
+    const double* row = set.N.data() + begin * set.N.cols() + j;
+    for (Eigen::Index i = begin; i < end; ++i, row += set.N.cols()) {
       slope += pack<L>(row) * a[i];
       value += pack<L>(row) * tau[i];
     }

@@ -60,6 +60,29 @@ TEST(Zonotope, JointsAreTheirOwnBlocks) {
   EXPECT_LT((z.B * z.B_pinv - Eigen::Matrix3d::Identity()).norm(), 1e-14);
 }
 
+/// The block of row 1 lies between the rows of the block of rows 0 and 2.
+TEST(Zonotope, NormalsAreZeroOutsideTheirRows) {
+  Eigen::MatrixXd B = Eigen::MatrixXd::Zero(5, 6);
+  B(1, 1) = 2;
+  B.row(0) << 1, 0, 1, 0, 0, 1;
+  B.row(2) << 1, 0, -1, 0, 0, 2;
+  B(3, 3) = B(4, 4) = 1;
+  const Eigen::VectorXd limit = Eigen::VectorXd::Ones(6);
+  const Zonotope z = make_zonotope(B, -limit, limit);
+  ASSERT_EQ(z.facet_pairs(), 6);  // 3 of rows 0 and 2, and one of each other row
+  ASSERT_EQ(z.N_begin.size(), 6);
+  ASSERT_EQ(z.N_end.size(), 6);
+  EXPECT_TRUE(std::is_sorted(z.N_begin.begin(), z.N_begin.end()));
+  EXPECT_TRUE(std::is_sorted(z.N_end.begin(), z.N_end.end()));
+  for (int j = 0; j < z.facet_pairs(); ++j) {
+    EXPECT_TRUE(z.N.col(j).head(z.N_begin[j]).isZero(0)) << j;
+    EXPECT_TRUE(z.N.col(j).tail(5 - z.N_end[j]).isZero(0)) << j;
+    EXPECT_LE(z.N_end[j], 5);
+  }
+  EXPECT_GT(z.N_begin.back(), 0);
+  EXPECT_LT(z.N_end.front(), 5);
+}
+
 TEST(Zonotope, UnreachedDirectionsBecomePairsOfZeroWidth) {
   // One thruster along (1, 1) in the plane: tau must be a multiple of it.
   Eigen::MatrixXd B(2, 1);
