@@ -65,4 +65,7 @@ Zonotope make_zonotope(Eigen::MatrixXd B, Eigen::VectorXd u_min, Eigen::VectorXd
 /// @throws std::invalid_argument as `make_zonotope`.
 Zonotope with_limits(Zonotope zonotope, Eigen::VectorXd u_min, Eigen::VectorXd u_max);
 
+/// Fills N_nonzero, N_begin and N_end from N.
+void index_normals(Zonotope& zonotope);
+
 }  // namespace maxwrench

@@ -145,10 +145,6 @@ bool add_block(Zonotope& zonotope, const Block& block, long max_subsets) {
     VectorXd full = VectorXd::Zero(zonotope.dimension());
     full(block.rows) = normal;
     add_normal(zonotope, full);
-    // Blocks are in the order of their first rows.
-    const int end = block.rows.back() + 1;
-    zonotope.N_begin.push_back(block.rows.front());
-    zonotope.N_end.push_back(zonotope.N_end.empty() ? end : std::max(end, zonotope.N_end.back()));
   }
   return true;
 }
@@ -177,15 +173,29 @@ Zonotope make_zonotope(MatrixXd B, VectorXd u_min, VectorXd u_max, long max_subs
   zonotope.has_facets = std::all_of(blocks.begin(), blocks.end(), [&](const Block& block) {
     return add_block(zonotope, block, max_subsets);
   });
-  if (!zonotope.has_facets) {
-    zonotope.N.resize(zonotope.dimension(), 0);
-    zonotope.N_begin.clear();
-    zonotope.N_end.clear();
-  }
+  if (!zonotope.has_facets) zonotope.N.resize(zonotope.dimension(), 0);
   set_supports(zonotope);
+  index_normals(zonotope);
+  return zonotope;
+}
+
+void index_normals(Zonotope& zonotope) {
   zonotope.N_nonzero = zonotope.N.sparseView();
   zonotope.N_nonzero.makeCompressed();
-  return zonotope;
+  const int n = zonotope.dimension(), f = zonotope.facet_pairs();
+  zonotope.N_begin.assign(static_cast<std::size_t>(f), n);
+  zonotope.N_end.assign(static_cast<std::size_t>(f), 0);
+  for (int j = 0; j < f; ++j) {
+    for (Eigen::SparseMatrix<double>::InnerIterator entry(zonotope.N_nonzero, j); entry; ++entry) {
+      int& begin = zonotope.N_begin[static_cast<std::size_t>(j)];
+      int& end = zonotope.N_end[static_cast<std::size_t>(j)];
+      begin = std::min(begin, static_cast<int>(entry.row()));
+      end = std::max(end, static_cast<int>(entry.row()) + 1);
+    }
+  }
+  std::vector<int>&begin = zonotope.N_begin, &end = zonotope.N_end;
+  for (std::size_t j = 1; j < end.size(); ++j) end[j] = std::max(end[j], end[j - 1]);
+  for (std::size_t j = begin.size(); j-- > 1;) begin[j - 1] = std::min(begin[j - 1], begin[j]);
 }
 
 Zonotope with_limits(Zonotope zonotope, VectorXd u_min, VectorXd u_max) {

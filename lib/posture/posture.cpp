@@ -222,21 +222,23 @@ struct PostureEvaluator::Workspace {
     }
   }
 
-  void pull_back(const Eigen::VectorXd& theta_r, const Seeds& by, const Capability* decided,
-                 Eigen::VectorXd& gradient) {
+  /// Returns the workspace whose posture is at theta_r: this one, or a second one, so that the
+  /// posture that `evaluate` returned stays.
+  Workspace& at(const Eigen::VectorXd& theta_r) {
+    if (model.theta_r == theta_r) return *this;
+    if (!elsewhere) elsewhere = std::make_unique<Workspace>(problem, check_collision);
+    if (elsewhere->model.theta_r != theta_r) elsewhere->run(theta_r);
+    return *elsewhere;
+  }
+
+  /// `PostureEvaluator::pull_back` at the last theta_r.
+  void pull_back(const Seeds& by, const Capability* decided, Eigen::VectorXd& gradient) {
     by.require(model.J.cols(), model.q.size());
     if (second) {
       require_columns("J_2", by.J_2.cols(), model.J.cols());
       require_columns("C_2", by.C_2.cols(), problem.contact_columns());
     }
-    if (model.theta_r != theta_r) {
-      if (second || primary) {
-        run(theta_r);  // selects an IK solution
-      } else {
-        model.evaluate(theta_r);
-      }
-    }
-    gradient.resize(theta_r.size());
+    gradient.resize(model.theta_r.size());
     const Eigen::Vector3d& p_e = model.pose.p;
     const Matrix6Xd& seeds = second ? second->shifted_seeds(p_e, by.J, by.J_2) : by.J;
     if (decided) slopes->load(decided->decides, model);
@@ -300,6 +302,7 @@ struct PostureEvaluator::Workspace {
   IkSolution shown, placed;  ///< where the fault is; where the model is
   const Matrix6Xd none;      ///< no seeds
   const Eigen::VectorXd none_by_q;
+  std::unique_ptr<Workspace> elsewhere;  ///< made by the first `pull_back` at another theta_r
 };
 
 PostureEvaluator::PostureEvaluator(const Problem& problem, bool check_collision)
@@ -328,18 +331,17 @@ const Posture& PostureEvaluator::select(int ik_solution) {
 void PostureEvaluator::pull_back(const Eigen::VectorXd& theta_r, const Eigen::VectorXd& tau_seed,
                                  const Matrix6Xd& J_seed, Eigen::VectorXd& gradient) {
   require_theta_r(workspace_->problem, theta_r);
-  const Workspace& ws = *workspace_;
-  workspace_->pull_back(theta_r, {tau_seed, J_seed, ws.none_by_q, ws.none, ws.none}, nullptr,
-                        gradient);
+  Workspace& ws = workspace_->at(theta_r);
+  ws.pull_back({tau_seed, J_seed, ws.none_by_q, ws.none, ws.none}, nullptr, gradient);
 }
 
 void PostureEvaluator::pull_back(const Eigen::VectorXd& theta_r, const Capability& capability,
                                  Eigen::VectorXd& gradient) {
   require_theta_r(workspace_->problem, theta_r);
-  workspace_->pull_back(theta_r,
-                        {capability.lambda, capability.beta_J, capability.beta_q,
-                         capability.beta_J2, capability.beta_C2},
-                        workspace_->slopes ? &capability : nullptr, gradient);
+  Workspace& ws = workspace_->at(theta_r);
+  ws.pull_back({capability.lambda, capability.beta_J, capability.beta_q, capability.beta_J2,
+                capability.beta_C2},
+               ws.slopes ? &capability : nullptr, gradient);
 }
 
 }  // namespace maxwrench

@@ -273,8 +273,7 @@ Problem read_problem(std::string_view data) {
   put_all(from, problem, collision);
   if (!from.complete()) reject("other data");
   Zonotope& actuation = problem.robot.actuation;
-  actuation.N_nonzero = actuation.N.sparseView();
-  actuation.N_nonzero.makeCompressed();
+  index_normals(actuation);
   for (ScenarioLimits& limits : problem.scenarios.limits) {
     limits.actuation = with_limits(actuation, limits.actuation.u_min, limits.actuation.u_max);
   }
