@@ -8,12 +8,6 @@
 
 namespace maxwrench {
 
-/// Why a motion does not satisfy its limits; `reason` is empty if it does.
-struct MotionFault {
-  std::string reason;
-  double t = -1;  ///< the instant [s]
-};
-
 /// The efforts of a certificate,
 ///
 ///     u(t) = y(t) + B^+ (tau_d(t) + J'c(t) w(t) - B y(t)).

@@ -16,7 +16,7 @@ constexpr double kDistanceRounding = 1e-9;
 
 /// A joint between two bodies, and how far a point of a body can be from it.
 struct Lever {
-  int coordinate;
+  std::size_t joint;
   double reach;  ///< [m]; 1 for a prismatic joint
 };
 
@@ -29,12 +29,11 @@ void add_levers(const TrajectoryModel& model, int link, int ancestor, double ext
     const auto joint = static_cast<std::size_t>(link - 1);
     const Joint& at = robot.joints[joint];
     const bool turns = at.type == JointType::kRevolute;
-    const int coordinate = model.coordinate_of()[joint];
-    if (coordinate >= 0) levers.push_back({coordinate, turns ? reach : 1});
+    if (model.moves(joint)) levers.push_back({joint, turns ? reach : 1});
     reach += at.placement.p.norm();
     if (!turns) {
-      reach += coordinate < 0 ? std::abs(model.rest()[joint])
-                              : std::max(std::abs(at.q_min), std::abs(at.q_max)) + 1e-6;
+      reach += model.moves(joint) ? std::max(std::abs(at.q_min), std::abs(at.q_max)) + 1e-6
+                                  : std::abs(model.rest()[joint]);
     }
     reach *= 1 + 1e-12;
   }
@@ -142,8 +141,8 @@ class ClearanceProof {
   double approach(const TimeSlice& slice, int pair) const {
     Narrow speed;
     for (const Lever& lever : levers_[static_cast<std::size_t>(pair)]) {
-      speed += lever.reach * Narrow(model_.curve().fastest(lever.coordinate, slice.interval,
-                                                           slice.from, slice.to));
+      speed +=
+          lever.reach * Narrow(model_.fastest(lever.joint, slice.interval, slice.from, slice.to));
     }
     return (speed * (((slice.to - slice.from) / 2) * Narrow(1.0)) / model_.curve().rate()).high;
   }

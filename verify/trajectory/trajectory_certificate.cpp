@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::string_view kTrajectoryMagic = "maxwrench trajectory proof 1\n";
 constexpr std::string_view kTrajectoryListMagic = "maxwrench trajectory proof 2\n";
+constexpr std::string_view kDependentMagic = "maxwrench trajectory proof 3\n";
 
 void put_dynamics(ByteWriter& to, const Robot& robot) {
   for (const Link& link : robot.links) {
@@ -102,7 +103,9 @@ std::uint64_t motion_digest(const Problem& problem) {
 std::string certificate_text(const TrajectoryCertificate& proof) {
   ByteWriter raw;
   put_claim(raw, proof);
-  return seal(kTrajectoryMagic, raw.text());
+  if (proof.dependent.size() == 0) return seal(kTrajectoryMagic, raw.text());
+  raw.matrix(proof.dependent);
+  return seal(kDependentMagic, raw.text());
 }
 
 std::string certificate_text(const std::vector<TrajectoryCertificate>& scenarios) {
@@ -113,18 +116,26 @@ std::string certificate_text(const std::vector<TrajectoryCertificate>& scenarios
 }
 
 bool is_trajectory_certificate(const std::string& file) {
-  return begins_with(file, kTrajectoryMagic) || begins_with(file, kTrajectoryListMagic);
+  return begins_with(file, kTrajectoryMagic) || begins_with(file, kTrajectoryListMagic) ||
+         begins_with(file, kDependentMagic);
 }
 
 std::vector<TrajectoryCertificate> read_trajectory_certificates(const std::string& file) {
   const bool list = begins_with(file, kTrajectoryListMagic);
-  const std::string raw = unseal(file, list ? kTrajectoryListMagic : kTrajectoryMagic);
+  const bool depends = begins_with(file, kDependentMagic);
+  const std::string raw = unseal(file, list      ? kTrajectoryListMagic
+                                       : depends ? kDependentMagic
+                                                 : kTrajectoryMagic);
   ByteReader from(raw);
   constexpr std::size_t kLeastBytes = 64;  // of a certificate
   const std::size_t count = list ? from.count(kLeastBytes) : 1;
   std::vector<TrajectoryCertificate> all;
   bool good = count > 0;
   while (good && all.size() < count) good = get_claim(from, all.emplace_back());
+  if (good && depends) {
+    all.back().dependent = from.matrix();
+    good = from.good();
+  }
   if (!good || !from.at_end()) {
     throw std::invalid_argument(file + ": got a damaged file, expected a whole certificate");
   }

@@ -19,6 +19,9 @@ struct TrajectoryCertificate {
   double value = 0;
   int t_h = 0;            ///< the knot of an impulse's peak
   Eigen::MatrixXd knots;  ///< k×r, without theta_0 of an impulse
+  /// Positions of the dependent joints, roughly, at places that cut each interval into equal parts
+  /// (joints×places). They tell IK solutions apart. Empty without such joints.
+  Eigen::MatrixXd dependent;
   /// The number of parts into which the edges cut each interval between knots.
   int parts = 0;
   Eigen::MatrixXd y;  ///< control points of the efforts at the edges, m×(parts intervals + 1)

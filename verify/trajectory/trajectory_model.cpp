@@ -56,7 +56,9 @@ void require_provable(const Problem& problem) {
   const bool moves = task.k + (task.impulse ? 1 : 0) >= 2;
   const std::vector<std::pair<bool, std::array<const char*, 2>>> cases = {
       {problem.contact.has_value(), {"a second contact", "one contact"}},
-      {!problem.dependent.empty(), {"dependent joints", "a base whose pose has a closed form"}},
+      {!problem.dependent.empty() &&
+           dependent_equations(problem) != static_cast<int>(problem.dependent.size()),
+       {"dependent joints that the base's axes do not determine", "as many as axes that it lacks"}},
       {problem.free.count() > 0, {"free pose coordinates", "a path"}},
       {!problem.scenarios.empty(), {"a list of scenarios", "one wrench of the nominal robot"}},
       {!task.path.as_screw(),
@@ -84,16 +86,21 @@ void require_provable_task(const Problem& problem) {
   if (list.ball || list.payload || !list.loads.empty()) {
     throw_unprovable(problem, "a ball, a payload or uncertain loads", "wrenches and limits");
   }
+  if (!problem.dependent.empty()) {
+    throw_unprovable(problem, "a list of scenarios and dependent joints", "one of them");
+  }
   Problem alone = problem;
   alone.scenarios = {};
   require_provable(alone);
 }
 
-TrajectoryModel::TrajectoryModel(const Problem& problem, const Eigen::MatrixXd& table)
+TrajectoryModel::TrajectoryModel(const Problem& problem, const Eigen::MatrixXd& table,
+                                 const Eigen::MatrixXd& dependent)
     : problem_(problem),
       path_(problem.motion->path.as_screw().value()),
       curve_(all_rows(*problem.motion, table), problem.motion->T),
-      coordinate_of_(problem.robot.joints.size(), -1) {
+      coordinate_of_(problem.robot.joints.size(), -1),
+      dependent_of_(problem.robot.joints.size(), -1) {
   for (std::size_t k = 0; k < problem.redundant.size(); ++k) {
     coordinate_of_[static_cast<std::size_t>(problem.redundant[k])] = static_cast<int>(k);
   }
@@ -104,15 +111,44 @@ TrajectoryModel::TrajectoryModel(const Problem& problem, const Eigen::MatrixXd& 
   for (; link != 0; link = problem.robot.joints[static_cast<std::size_t>(link - 1)].parent) {
     inward_.push_back(link);
   }
+  for (std::size_t k = 0; k < problem.dependent.size(); ++k) {
+    dependent_of_[static_cast<std::size_t>(problem.dependent[k])] = static_cast<int>(k);
+  }
+  if (!problem.dependent.empty()) make_tube(dependent);
+}
+
+template <int N>
+std::vector<Jet<N>> TrajectoryModel::joints_of_theta_r(int interval, const Narrow& x) const {
+  std::vector<Jet<N>> q;
+  for (std::size_t i = 0; i < rest_.size(); ++i) {
+    const int coordinate = coordinate_of_[i];
+    q.push_back(coordinate < 0 ? Jet<N>(rest_[i]) : curve_.at<N>(coordinate, interval, x));
+  }
+  return q;
+}
+
+template <int N>
+std::vector<Jet<N>> TrajectoryModel::joints(int interval, const Narrow& x) const {
+  std::vector<Jet<N>> q = joints_of_theta_r<N>(interval, x);
+  if (problem_.dependent.empty()) return q;
+  const std::vector<Jet<N>> dependent = dependent_jets<N>(interval, x);
+  for (std::size_t k = 0; k < dependent.size(); ++k) {
+    q[static_cast<std::size_t>(problem_.dependent[k])] = dependent[k];
+  }
+  return q;
+}
+
+double TrajectoryModel::fastest(std::size_t joint, int interval, double x_0, double x_1) const {
+  if (coordinate_of_[joint] >= 0) return curve_.fastest(coordinate_of_[joint], interval, x_0, x_1);
+  if (dependent_of_[joint] < 0) return 0;
+  const auto k = static_cast<std::size_t>(dependent_of_[joint]);
+  return dependent_jets<3>(interval, {x_0, x_1})[k].c[1].magnitude();
 }
 
 /// The pose of a link in its parent's axes.
 template <int N>
-auto TrajectoryModel::joint_frame(std::size_t joint, int interval, const Narrow& x) const
-    -> Frame<N> {
+auto TrajectoryModel::joint_frame(std::size_t joint, const Jet<N>& q) const -> Frame<N> {
   const Joint& at = problem_.robot.joints[joint];
-  const int coordinate = coordinate_of_[joint];
-  const Jet<N> q = coordinate < 0 ? Jet<N>(rest_[joint]) : curve_.at<N>(coordinate, interval, x);
   Frame<N> frame{constant_jets<N>(at.placement.R), constant_jets<N>(at.placement.p)};
   if (at.type == JointType::kRevolute) {
     frame.R = frame.R * rotation(at.axis, q);
@@ -150,34 +186,43 @@ void TrajectoryModel::move_tool(int interval, const Narrow& x, Motion<N>& motion
   motion.tool.p = motion.tool.p + phi * constant_jets<N>(path_.displacement);
 }
 
+/// The link of the end effector.
+template <int N>
+auto TrajectoryModel::tool_link(const Frame<N>& tool) const -> Frame<N> {
+  const EndEffector& tip =
+      problem_.robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
+  return outer(tool, {constant_jets<N>(tip.placement.R), constant_jets<N>(tip.placement.p)});
+}
+
+template <int N>
+auto TrajectoryModel::base_of(const Frame<N>& tool, const std::vector<Jet<N>>& q) const
+    -> Frame<N> {
+  Frame<N> link = tool_link(tool);
+  for (const int moved : inward_) {
+    const auto joint = static_cast<std::size_t>(moved - 1);
+    link = outer(link, joint_frame(joint, q[joint]));
+  }
+  return link;
+}
+
 template <int N>
 auto TrajectoryModel::move(int interval, const Narrow& x) const -> Motion<N> {
   const Robot& robot = problem_.robot;
   Motion<N> motion;
   move_tool(interval, x, motion);
+  const std::vector<Jet<N>> q = this->joints<N>(interval, x);
   std::vector<Frame<N>> joints;
-  for (std::size_t i = 0; i < robot.joints.size(); ++i) {
-    joints.push_back(joint_frame<N>(i, interval, x));
-  }
+  for (std::size_t i = 0; i < q.size(); ++i) joints.push_back(joint_frame(i, q[i]));
   motion.links.resize(robot.links.size());
   std::vector<char> placed(robot.links.size(), 0);
-  const EndEffector& tip = robot.end_effectors[static_cast<std::size_t>(problem_.end_effector)];
-  // A frame inside another one at (R, p): the outer frame from the inner one.
-  const auto outer = [](const Frame<N>& inner, const JetMatrix<N>& R, const JetVector<N>& p) {
-    Frame<N> frame;
-    frame.R = inner.R * transposed(R);
-    frame.p = inner.p - frame.R * p;
-    return frame;
-  };
-  auto link = static_cast<std::size_t>(tip.link);
-  motion.links[link] =
-      outer(motion.tool, constant_jets<N>(tip.placement.R), constant_jets<N>(tip.placement.p));
-  placed[link] = 1;
+  motion.links[static_cast<std::size_t>(inward_.empty() ? 0 : inward_.front())] =
+      tool_link(motion.tool);
+  placed[0] = 1;
   for (const int moved : inward_) {
     const auto from = static_cast<std::size_t>(moved);
-    link = static_cast<std::size_t>(robot.joints[from - 1].parent);
-    motion.links[link] = outer(motion.links[from], joints[from - 1].R, joints[from - 1].p);
-    placed[link] = 1;
+    const auto link = static_cast<std::size_t>(robot.joints[from - 1].parent);
+    motion.links[link] = outer(motion.links[from], joints[from - 1]);
+    placed[from] = 1;
   }
   for (std::size_t i = 1; i < robot.links.size(); ++i) {
     if (placed[i]) continue;
@@ -187,19 +232,24 @@ auto TrajectoryModel::move(int interval, const Narrow& x) const -> Motion<N> {
   return motion;
 }
 
-/// The components of the base's pose, seen from its mount, that no free axis changes.
+template <int N>
+auto TrajectoryModel::from_mount(const Frame<N>& base) const -> Frame<N> {
+  const Pose<double>& mount = problem_.robot.mount;
+  const JetMatrix<N> into = transposed(constant_jets<N>(mount.R));
+  return {into * base.R,
+          into * (base.p + (constant_jets<N>(path_.start.p) - constant_jets<N>(mount.p)))};
+}
+
+/// The components of the base's pose, seen from its mount, that no free axis changes. Where joints
+/// depend on them they vanish.
 template <int N>
 std::vector<Jet<N>> TrajectoryModel::off_axes(const Frame<N>& base) const {
   const std::vector<int>& axes = problem_.robot.base_axes;
-  if (axes.size() == 6) return {};
+  if (axes.size() == 6 || !problem_.dependent.empty()) return {};
   const auto is_free = [&axes](int axis) {
     return std::find(axes.begin(), axes.end(), axis) != axes.end();
   };
-  const Pose<double>& mount = problem_.robot.mount;
-  const JetMatrix<N> into = transposed(constant_jets<N>(mount.R));
-  const JetVector<N> p =
-      into * (base.p + (constant_jets<N>(path_.start.p) - constant_jets<N>(mount.p)));
-  const JetMatrix<N> R = into * base.R;
+  const auto [R, p] = from_mount(base);
   std::vector<Jet<N>> off;
   for (int axis = 0; axis < 3; ++axis) {
     if (!is_free(axis)) off.push_back(p[static_cast<std::size_t>(axis)]);
@@ -240,16 +290,28 @@ MotionLoads<N - 2> TrajectoryModel::loads(int interval, const Narrow& x) const {
 template MotionLoads<1> TrajectoryModel::loads<3>(int, const Narrow&) const;
 template MotionLoads<2> TrajectoryModel::loads<4>(int, const Narrow&) const;
 
+// For the dependent joints.
+template auto TrajectoryModel::base_of(const Frame<1>&, const std::vector<Jet<1>>&) const
+    -> Frame<1>;
+template auto TrajectoryModel::base_of(const Frame<3>&, const std::vector<Jet<3>>&) const
+    -> Frame<3>;
+template auto TrajectoryModel::base_of(const Frame<4>&, const std::vector<Jet<4>>&) const
+    -> Frame<4>;
+template auto TrajectoryModel::from_mount(const Frame<1>&) const -> Frame<1>;
+template auto TrajectoryModel::from_mount(const Frame<3>&) const -> Frame<3>;
+template auto TrajectoryModel::from_mount(const Frame<4>&) const -> Frame<4>;
+template void TrajectoryModel::move_tool(int, const Narrow&, Motion<3>&) const;
+template void TrajectoryModel::move_tool(int, const Narrow&, Motion<4>&) const;
+template std::vector<Jet<3>> TrajectoryModel::joints_of_theta_r(int, const Narrow&) const;
+template std::vector<Jet<4>> TrajectoryModel::joints_of_theta_r(int, const Narrow&) const;
+
 std::vector<Pose<double>> TrajectoryModel::links(int interval, double x) const {
   const Robot& robot = problem_.robot;
+  const std::vector<Jet<3>> all = joints<3>(interval, Narrow(x));
   std::vector<Pose<double>> links(1);
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     const Joint& joint = robot.joints[i];
-    double q = rest_[i];
-    if (coordinate_of_[i] >= 0) {
-      const Narrow at = curve_.at<3>(coordinate_of_[i], interval, Narrow(x)).c[0];
-      q = (at.low + at.high) / 2;
-    }
+    const double q = moves(i) ? (all[i].c[0].low + all[i].c[0].high) / 2 : rest_[i];
     Pose<double> motion;
     if (joint.type == JointType::kRevolute) {
       motion.R = Eigen::AngleAxisd(q, joint.axis).toRotationMatrix();

@@ -18,6 +18,15 @@ void require_provable(const Problem& problem);
 /// The same for a task that may have a list of scenarios: each is a task of its own, with a wrench.
 void require_provable_task(const Problem& problem);
 
+/// Why a motion does not satisfy its limits; `reason` is empty if it does.
+struct MotionFault {
+  std::string reason;
+  double t = -1;  ///< the instant [s]
+};
+
+/// The number of equations of the dependent joints: one for each axis of the base that is not free.
+int dependent_equations(const Problem& problem);
+
 /// All that the balance of a motion depends on, as jets at a place of the motion.
 template <int N>
 struct MotionLoads {
@@ -34,14 +43,24 @@ struct MotionLoads {
 /// force on a link is the rate of its momentum, with the momentum of the water that it moves, and
 /// its torque the rate of the angular momentum about a fixed point. No recursion of velocities and
 /// no formula for accelerations is needed, so this shares nothing with the dynamics of `lib`.
+///
+/// Dependent joints solve equations: the base stays on its free axes. A tube of boxes in time
+/// contains one continuous solution, by Krawczyk's test in each box. The jets of the joints then
+/// follow from those of the equations, coefficient by coefficient.
 class TrajectoryModel {
  public:
   /// Keeps a reference to the problem.
   ///
-  /// @param problem  a task for which `require_provable` does not throw
-  /// @param table    its knots (k×r), without theta_0 of an impulse
-  TrajectoryModel(const Problem& problem, const Eigen::MatrixXd& table);
-  TrajectoryModel(const Problem&&, const Eigen::MatrixXd&) = delete;
+  /// @param problem    a task for which `require_provable` does not throw
+  /// @param table      its knots (k×r), without theta_0 of an impulse
+  /// @param dependent  near which the dependent joints are (joints×places), at places that cut
+  ///                   each interval into equal parts; empty without such joints
+  explicit TrajectoryModel(const Problem& problem, const Eigen::MatrixXd& table,
+                           const Eigen::MatrixXd& dependent = {});
+  TrajectoryModel(const Problem&&, const Eigen::MatrixXd&, const Eigen::MatrixXd& = {}) = delete;
+
+  /// Where the dependent joints could not be enclosed; nothing else is valid then.
+  const MotionFault& lost() const { return lost_; }
 
   const Problem& problem() const { return problem_; }
   const KnotCurve& curve() const { return curve_; }
@@ -57,9 +76,17 @@ class TrajectoryModel {
 
   /// Poses of all links relative to the base, in ordinary arithmetic.
   std::vector<Pose<double>> links(int interval, double x) const;
-  /// The coordinate of theta_r that each joint is; -1: it rests at `rest`.
-  const std::vector<int>& coordinate_of() const { return coordinate_of_; }
+  /// Whether a joint is one of theta_r or depends on it; the others rest at `rest`.
+  bool moves(std::size_t joint) const {
+    return coordinate_of_[joint] >= 0 || dependent_of_[joint] >= 0;
+  }
   const std::vector<double>& rest() const { return rest_; }
+  /// [rad/s or m/s] A bound of a joint's speed from x_0 to x_1.
+  double fastest(std::size_t joint, int interval, double x_0, double x_1) const;
+  /// The dependent joints for all x of an interval: position, rate and more.
+  std::vector<Jet<3>> dependent(int interval, const Narrow& x) const {
+    return dependent_jets<3>(interval, x);
+  }
 
  private:
   template <int N>
@@ -83,8 +110,28 @@ class TrajectoryModel {
   Motion<N> move(int interval, const Narrow& x) const;
   template <int N>
   void move_tool(int interval, const Narrow& x, Motion<N>& motion) const;
+  /// The jets of all joints. `joints_of_theta_r` leaves the dependent ones at zero.
   template <int N>
-  Frame<N> joint_frame(std::size_t joint, int interval, const Narrow& x) const;
+  std::vector<Jet<N>> joints_of_theta_r(int interval, const Narrow& x) const;
+  template <int N>
+  std::vector<Jet<N>> joints(int interval, const Narrow& x) const;
+  template <int N>
+  Frame<N> joint_frame(std::size_t joint, const Jet<N>& q) const;
+  /// The outer frame, from a frame at `in` inside it.
+  template <int N>
+  static Frame<N> outer(const Frame<N>& inner, const Frame<N>& in) {
+    Frame<N> frame;
+    frame.R = inner.R * transposed(in.R);
+    frame.p = inner.p - frame.R * in.p;
+    return frame;
+  }
+  template <int N>
+  Frame<N> tool_link(const Frame<N>& tool) const;
+  template <int N>
+  Frame<N> base_of(const Frame<N>& tool, const std::vector<Jet<N>>& q) const;
+  /// The base's pose in the axes of its mount.
+  template <int N>
+  Frame<N> from_mount(const Frame<N>& base) const;
   template <int N>
   Wrenches<N - 2> force_on(std::size_t link, const Frame<N>& at) const;
   template <int N>
@@ -93,12 +140,43 @@ class TrajectoryModel {
   template <int N>
   std::vector<Jet<N>> off_axes(const Frame<N>& base) const;
 
+  /// Part of an interval, and the box in which the dependent joints are there.
+  struct TubeCell {
+    double from, to;
+    std::vector<Narrow> q;
+  };
+  /// The end effector and the joints at any one place of a stretch of time.
+  struct Place {
+    Frame<1> tool;
+    std::vector<Jet<1>> q;
+  };
+  using NarrowBox = std::vector<Narrow>;
+
+  Place place_at(int interval, const Narrow& x) const;
+  /// The equations at the given dependent joints: numbers that vanish while the base is on its free
+  /// axes.
+  template <int N>
+  std::vector<Jet<N>> equations(const Frame<N>& tool, std::vector<Jet<N>> q,
+                                const std::vector<Jet<N>>& dependent) const;
+  std::vector<NarrowBox> equation_slopes(const Place& at, const NarrowBox& X) const;
+  std::optional<NarrowBox> krawczyk(const Place& at, const NarrowBox& X) const;
+  std::optional<NarrowBox> enclose(const Place& at, const Eigen::VectorXd& near) const;
+  Eigen::VectorXd newton(const Place& at, Eigen::VectorXd q) const;
+  bool is_upright(const Place& at, const NarrowBox& X) const;
+  void make_tube(const Eigen::MatrixXd& dependent);
+  bool make_cells(int interval, double from, double to, const Eigen::VectorXd& near, int halvings);
+  void join_cells();
+  template <int N>
+  std::vector<Jet<N>> dependent_jets(int interval, const Narrow& x) const;
+
   const Problem& problem_;
   ScrewPath path_;
   KnotCurve curve_;
-  std::vector<int> coordinate_of_;
+  std::vector<int> coordinate_of_, dependent_of_;  ///< of each joint; -1: none
   std::vector<double> rest_;
-  std::vector<int> inward_;  ///< links from that of the end effector to the base
+  std::vector<int> inward_;                  ///< links from that of the end effector to the base
+  std::vector<std::vector<TubeCell>> tube_;  ///< of each interval
+  MotionFault lost_;
 };
 
 }  // namespace maxwrench

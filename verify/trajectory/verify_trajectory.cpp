@@ -40,6 +40,12 @@ std::string reject_sizes(const Problem& problem, const TrajectoryCertificate& pr
     return "its knots have another size";
   }
   const Eigen::Index intervals = task.k - (task.impulse ? 0 : 1);
+  const Eigen::Index places = proof.dependent.cols();
+  if (proof.dependent.rows() != static_cast<Eigen::Index>(problem.dependent.size()) ||
+      (!problem.dependent.empty() &&
+       (places <= intervals || places > kMostEdges || (places - 1) % intervals != 0))) {
+    return "its dependent joints have another size";
+  }
   if (proof.parts < 1 || proof.parts > kMostEdges / intervals) return "it has no edges or too many";
   const Eigen::Index edges = intervals * proof.parts + 1;
   const bool has_w = proof.w.size() == edges, may_lack_w = !task.impulse && proof.w.size() == 0;
@@ -47,8 +53,9 @@ std::string reject_sizes(const Problem& problem, const TrajectoryCertificate& pr
       !(has_w || may_lack_w)) {
     return "its efforts have another size";
   }
-  if (!within(proof.knots, kLargestKnot) || !within(proof.y, kLargestEffort) ||
-      !within(proof.w, kLargestEffort) || !(std::abs(proof.value) <= kLargestEffort)) {
+  if (!within(proof.knots, kLargestKnot) || !within(proof.dependent, kLargestKnot) ||
+      !within(proof.y, kLargestEffort) || !within(proof.w, kLargestEffort) ||
+      !(std::abs(proof.value) <= kLargestEffort)) {
     return "a number is not finite or is too large";
   }
   return "";
@@ -111,7 +118,63 @@ MotionFault check_efforts(const EffortLaw& law, int intervals, int parts, int th
 
 }  // namespace
 
+namespace {
+
+/// Why a dependent joint leaves its limits, or may do so, at some place of a stretch of an
+/// interval.
+std::string leaving(const TrajectoryModel& model, int interval, const Narrow& x) {
+  const Problem& problem = model.problem();
+  const std::vector<Jet<3>> jets = model.dependent(interval, x);
+  for (std::size_t k = 0; k < jets.size(); ++k) {
+    const Joint& joint = problem.robot.joints[static_cast<std::size_t>(problem.dependent[k])];
+    const auto beyond = [&](const Narrow& at, double lower, double upper, const char* what,
+                            const char* unit) -> std::string {
+      if (at.low >= lower - kKnotTolerance && at.high <= upper + kKnotTolerance) return "";
+      const bool above = !(at.high <= upper + kKnotTolerance);
+      return joint.name + what + in_six_digits(above ? at.high : at.low) + ", beyond its limit " +
+             in_six_digits(above ? upper : lower) +
+             (joint.type == JointType::kRevolute ? " rad" : " m") + unit;
+    };
+    std::string reason = beyond(jets[k].c[0], joint.q_min, joint.q_max, " is at ", "");
+    if (reason.empty()) {
+      reason = beyond(jets[k].c[1], -joint.velocity_max, joint.velocity_max, " moves at ", "/s");
+    }
+    if (!reason.empty()) return reason;
+  }
+  return "";
+}
+
+/// The limits of dependent joints. Stretches that may leave them are cut in halves until a middle
+/// certainly leaves them, or for the last time.
+MotionFault check_dependent(const TrajectoryModel& model) {
+  struct Stretch {
+    double from, to;
+    int halvings;
+  };
+  constexpr int kMostStretchCuts = 16;
+  for (int interval = 0; interval < model.curve().intervals(); ++interval) {
+    std::vector<Stretch> open = {{0, 1, 0}};
+    while (!open.empty()) {
+      const Stretch stretch = open.back();
+      open.pop_back();
+      if (leaving(model, interval, {stretch.from, stretch.to}).empty()) continue;
+      const double middle = (stretch.from + stretch.to) / 2;
+      std::string reason = leaving(model, interval, Narrow(middle));
+      if (reason.empty() && stretch.halvings == kMostStretchCuts) {
+        reason = leaving(model, interval, {stretch.from, stretch.to});
+      }
+      if (!reason.empty()) return {std::move(reason), model.time(interval, middle)};
+      open.push_back({middle, stretch.to, stretch.halvings + 1});
+      open.push_back({stretch.from, middle, stretch.halvings + 1});
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
 MotionFault check_motion(const TrajectoryModel& model) {
+  if (!model.lost().reason.empty()) return model.lost();
   const Problem& problem = model.problem();
   const KnotCurve& curve = model.curve();
   for (int k = 0; k < problem.redundancy(); ++k) {
@@ -137,6 +200,7 @@ MotionFault check_motion(const TrajectoryModel& model) {
       return {problem.theta_r_name(k) + " starts with an acceleration; at rest there is none", 0};
     }
   }
+  if (!problem.dependent.empty()) return check_dependent(model);
   return {};
 }
 
@@ -150,7 +214,7 @@ TrajectoryVerification verify(const Problem& problem, const TrajectoryCertificat
         problem.motion->impulse ? reject_impulse(problem, proof) : reject_path(proof);
   }
   if (!result.rejection.empty()) return result;
-  const TrajectoryModel model(problem, proof.knots);
+  const TrajectoryModel model(problem, proof.knots, proof.dependent);
   const EffortLaw law(model, proof);
   MotionFault fault = check_motion(model);
   if (fault.reason.empty()) fault = check_clearance(model, result);

@@ -12,8 +12,8 @@ namespace maxwrench {
 /// are written with six digits do.
 inline constexpr double kKnotTolerance = 1e-6;
 
-/// Checks that theta_r and its rates are within their limits at all times, and that an impulse
-/// begins at rest and without acceleration.
+/// Checks that theta_r, the dependent joints and their rates are within their limits at all times,
+/// and that an impulse begins at rest and without acceleration.
 MotionFault check_motion(const TrajectoryModel& model);
 
 /// Checks that a certificate proves its claim about a task: the robot can exert the wrench or

@@ -20,8 +20,22 @@ constexpr double kWorthVarying = 1e-5;
 /// range from knot to knot, or by the next one if it costs more than `kWorthJumping` of the value.
 constexpr double kSteadyShares[] = {1, 4, 16};
 constexpr double kWorthJumping = 1e-5;
+/// Of an interval between knots, for the dependent joints.
+constexpr int kPlacesOfInterval = 8;
 
 }  // namespace
+
+Eigen::MatrixXd dependent_places(const Problem& problem, const Eigen::MatrixXd& knots) {
+  if (problem.dependent.empty()) return {};
+  MotionEvaluator motion(problem, make_dense_spline(*problem.motion, kPlacesOfInterval));
+  std::vector<Instant> instants;
+  motion.evaluate(all_knots(*problem.motion, knots), instants);
+  Eigen::MatrixXd places(problem.dependent.size(), instants.size());
+  for (Eigen::Index i = 0; i < places.cols(); ++i) {
+    places.col(i) = instants[static_cast<std::size_t>(i)].q(problem.dependent);
+  }
+  return places;
+}
 
 EdgeProgram::EdgeProgram(const Problem& problem, const Eigen::MatrixXd& knots, int parts, int t_h)
     : problem_(problem),

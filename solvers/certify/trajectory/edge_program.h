@@ -18,6 +18,10 @@ struct EdgeEfforts : Verdict {
   Eigen::VectorXd w;  ///< the wrench along c at the edges; empty: `value` throughout
 };
 
+/// Positions of the dependent joints at parts of each interval between knots (joints×places), as
+/// the certificate has them; empty without such joints. NaN where they have no solution.
+Eigen::MatrixXd dependent_places(const Problem& problem, const Eigen::MatrixXd& knots);
+
 /// The largest wrench with efforts at edges, such that the efforts of an `EffortLaw` with these
 /// control points stay within their limits.
 ///

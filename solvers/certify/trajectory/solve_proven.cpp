@@ -11,6 +11,7 @@
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
 #include "maxwrench/trajectory_proof.h"
+#include "solvers/certify/trajectory/edge_program.h"
 #include "solvers/search/slp_run.h"
 #include "verify/trajectory/motion_clearance.h"
 #include "verify/trajectory/verify_trajectory.h"
@@ -85,29 +86,47 @@ double deepest_collision(const TrajectoryModel& model) {
 /// whether it exceeds any.
 bool tighten_limits(const Problem& task, const Eigen::MatrixXd& knots, double& wider,
                     Problem& tight) {
-  const TrajectoryModel model(task, knots);
-  const KnotCurve& curve = model.curve();
+  const TrajectoryModel model(task, knots, dependent_places(task, knots));
+  if (!model.lost().reason.empty()) return false;
   bool exceeds = false;
-  for (int k = 0; k < task.redundancy(); ++k) {
-    const auto joint = static_cast<std::size_t>(task.redundant[static_cast<std::size_t>(k)]);
+  // Limits of the task, and those that become tighter.
+  const auto tighten = [&](int index, const auto& jet_of, const Narrow& limits, double& lower,
+                           double& upper) {
+    const auto joint = static_cast<std::size_t>(index);
+    const double speed = task.robot.joints[joint].velocity_max;
     double fastest = 0, lowest = kInfinity, highest = -kInfinity;
-    for (int i = 0; i < curve.intervals() * kPartsOfCurve; ++i) {
+    for (int i = 0; i < model.curve().intervals() * kPartsOfCurve; ++i) {
       const double x = i % kPartsOfCurve / double{kPartsOfCurve};
-      const Narrow part(x, x + 1.0 / kPartsOfCurve);
-      const Jet<3> q = curve.at<3>(k, i / kPartsOfCurve, part);
+      const Jet<3> q = jet_of(i / kPartsOfCurve, Narrow(x, x + 1.0 / kPartsOfCurve));
       fastest = std::max(fastest, q.c[1].magnitude());
       lowest = std::min(lowest, q.c[0].low);
       highest = std::max(highest, q.c[0].high);
     }
-    const double speed = task.robot.joints[joint].velocity_max;
     if (fastest > speed + kKnotTolerance) {
       tight.robot.joints[joint].velocity_max *= speed / fastest * (1 - kTighterBy);
       exceeds = true;
     }
-    const double below = task.theta_r_min[k] - lowest, above = highest - task.theta_r_max[k];
-    if (below > kKnotTolerance) tight.theta_r_min[k] += below * (1 + kTighterBy);
-    if (above > kKnotTolerance) tight.theta_r_max[k] -= above * (1 + kTighterBy);
+    const double below = limits.low - lowest, above = highest - limits.high;
+    if (below > kKnotTolerance) lower += below * (1 + kTighterBy);
+    if (above > kKnotTolerance) upper -= above * (1 + kTighterBy);
     exceeds = exceeds || below > kKnotTolerance || above > kKnotTolerance;
+  };
+  for (int k = 0; k < task.redundancy(); ++k) {
+    const auto jet_of = [&](int interval, const Narrow& x) {
+      return model.curve().at<3>(k, interval, x);
+    };
+    tighten(task.redundant[static_cast<std::size_t>(k)], jet_of,
+            {task.theta_r_min[k], task.theta_r_max[k]}, tight.theta_r_min[k], tight.theta_r_max[k]);
+  }
+  for (std::size_t k = 0; k < task.dependent.size(); ++k) {
+    const auto jet_of = [&](int interval, const Narrow& x) {
+      return model.dependent(interval, x)[k];
+    };
+    const auto index = static_cast<std::size_t>(task.dependent[k]);
+    Joint& joint = tight.robot.joints[index];
+    tighten(task.dependent[k], jet_of,
+            {task.robot.joints[index].q_min, task.robot.joints[index].q_max}, joint.q_min,
+            joint.q_max);
   }
   const double depth = deepest_collision(model);
   if (depth > kTouching) {

@@ -65,6 +65,7 @@ class TrajectoryProver {
     claim_.collision = task_.robot.collision != nullptr;
     claim_.digest = motion_digest(task_);
     claim_.knots = knots;
+    claim_.dependent = dependent_places(task_, knots);
     if (task.motion->impulse) claim_.t_h = t_h > 0 ? t_h : proof_.answer.trajectory.t_h;
   }
 
@@ -88,7 +89,11 @@ class TrajectoryProver {
   }
 
   bool keeps_limits() {
-    const TrajectoryModel model(task_, claim_.knots);
+    if (!claim_.dependent.allFinite()) {
+      refuse(Status::kInvalidPosture, "the dependent joints do not reach the path", -1);
+      return false;
+    }
+    const TrajectoryModel model(task_, claim_.knots, claim_.dependent);
     MotionFault fault = check_motion(model);
     TrajectoryVerification apart;
     if (fault.reason.empty()) fault = check_clearance(model, apart);

@@ -94,7 +94,7 @@ TEST(CertifyCommand, RejectsInOneLine) {
     EXPECT_NE(result.err.find(mention), std::string::npos) << result.err;
   };
   rejected("mobile/trajectory", "for a bound on trajectories");
-  rejected("mobile/trajectory --theta-r 2.3,-2", "for a proof in time");
+  rejected("mobile/trajectory --theta-r 2.3,-2 --wrench any", "for a proof in time");
   rejected("dual_arm/bar_wall --measure ellipsoid", "got 'ellipsoid'");
   rejected("dual_arm/bar_alone --wrench any", "second contact");
   rejected("fixed/push --wrench any --certificate proof.bin", "any wrenches with dependent joints");

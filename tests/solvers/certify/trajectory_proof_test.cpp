@@ -40,7 +40,8 @@ TEST(TrajectoryProof, ProvesHeldPostures) {
       certify_trajectory(rest, constant_knots(rest, rest.motion->theta_0));
   EXPECT_LE(impulse.guaranteed, 35.40831);
   EXPECT_NEAR(impulse.guaranteed, 35.4083, 35.4 * 5e-4);
-  for (const char* name : {"planar/trajectory", "uvms/jet_trajectory", "uvms/lift_impulse"}) {
+  for (const char* name :
+       {"planar/trajectory", "uvms/jet_trajectory", "uvms/lift_impulse", "mobile/trajectory"}) {
     const Problem problem = load_problem(name);
     const Eigen::VectorXd start =
         problem.motion->impulse ? problem.motion->theta_0 : problem.theta_r_default;

@@ -5,6 +5,7 @@
 #include "lib/trajectory/motion_evaluator.h"
 #include "maxwrench/load.h"
 #include "maxwrench/trajectory.h"
+#include "solvers/certify/trajectory/edge_program.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
@@ -54,9 +55,9 @@ void expect_holds(const Narrow& interval, double x, double rounding, const char*
   EXPECT_GE(interval.high + rounding, x) << what;
 }
 
-constexpr const char* kProvable[] = {"planar/trajectory",   "uvms/valve_trajectory",
-                                     "uvms/jet_trajectory", "uvms/valve_impulse",
-                                     "uvms/lift_impulse",   "uvms/valve_trajectory_fast"};
+constexpr const char* kProvable[] = {
+    "planar/trajectory", "uvms/valve_trajectory",      "uvms/jet_trajectory", "uvms/valve_impulse",
+    "uvms/lift_impulse", "uvms/valve_trajectory_fast", "mobile/trajectory"};
 
 /// The dynamics of `lib` work with recursions of twists in base axes, these with rates of momentum
 /// in the world. On a slice, the quadratic with f_0 and f_1 at the middle and f_2 over the slice
@@ -68,7 +69,8 @@ TEST(TrajectoryModel, HoldsTheLoadsOfTheOtherDynamics) {
     const bool floats = problem.robot.base_axes.size() == 6;
     if (floats) problem.robot.current = {0.2, -0.3, 0.1};
     const Eigen::MatrixXd knots = moving_knots(problem, random);
-    const TrajectoryModel model(problem, knots);
+    const TrajectoryModel model(problem, knots, dependent_places(problem, knots));
+    ASSERT_EQ(model.lost().reason, "") << name;
     LibModel lib(problem, knots);
     const int parts = 24, intervals = model.curve().intervals();
     const double H = problem.motion->T / intervals;
@@ -90,8 +92,10 @@ TEST(TrajectoryModel, HoldsTheLoadsOfTheOtherDynamics) {
           expect_holds(value(at.along_c[row], over.along_c[row]), expected.along_c[i], 1e-12, name);
           expect_holds(over.tau_d[row].c[0], expected.tau_d[i], 1e-9, name);
           if (2 * part == 2 * first + 4) {  // at the middle it is tight
-            EXPECT_NEAR(at.tau_d[row].c[0].low, expected.tau_d[i], 1e-8) << name;
-            EXPECT_NEAR(at.tau_d[row].c[0].high, expected.tau_d[i], 1e-8) << name;
+            // Rates of dependent joints have the rounding of several matrices in turn.
+            const double rounding = problem.dependent.empty() ? 1e-8 : 1e-6;
+            EXPECT_NEAR(at.tau_d[row].c[0].low, expected.tau_d[i], rounding) << name;
+            EXPECT_NEAR(at.tau_d[row].c[0].high, expected.tau_d[i], rounding) << name;
           }
         }
       }
@@ -115,11 +119,64 @@ TEST(TrajectoryModel, KnowsTheFreeAxes) {
   EXPECT_NEAR(most, std::sin(0.1), 0.02);
 }
 
-TEST(TrajectoryModel, RejectsOtherTasks) {
-  for (const char* name : {"planar/force", "mobile/trajectory"}) {
-    EXPECT_THROW(require_provable(load_problem(name)), std::invalid_argument) << name;
+/// The positions and rates of the dependent joints hold those of `lib` at other instants of a
+/// slice, and are tight at a point.
+TEST(TrajectoryModel, EnclosesDependentJoints) {
+  const Problem problem = load_problem("mobile/trajectory");
+  Random random(4);
+  const Eigen::MatrixXd knots = moving_knots(problem, random);
+  const TrajectoryModel model(problem, knots, dependent_places(problem, knots));
+  ASSERT_EQ(model.lost().reason, "");
+  const int parts = 24;
+  const auto axes = static_cast<Eigen::Index>(problem.robot.base_axes.size());
+  MotionEvaluator motion(problem, make_dense_spline(*problem.motion, parts));
+  std::vector<Instant> instants;
+  motion.evaluate(all_knots(*problem.motion, knots), instants);
+  for (int interval = 0; interval < model.curve().intervals(); ++interval) {
+    for (int part = 0; part <= parts; ++part) {
+      const Instant& here = instants[static_cast<std::size_t>(interval * parts + part)];
+      const double x = part / double{parts};
+      const std::vector<Jet<3>> at = model.dependent(interval, Narrow(x));
+      const Narrow around(std::max(0.0, x - 0.03), std::min(1.0, x + 0.05));
+      const std::vector<Jet<3>> over = model.dependent(interval, around);
+      for (std::size_t k = 0; k < problem.dependent.size(); ++k) {
+        const Eigen::Index joint = problem.dependent[k];
+        expect_holds(over[k].c[0], here.q[joint], 1e-11, "position");
+        expect_holds(over[k].c[1], here.v[axes + joint], 1e-11, "rate");
+        expect_holds(over[k].c[2], here.v_dot[axes + joint] / 2, 1e-9, "bend");
+        EXPECT_NEAR(at[k].c[0].low, here.q[joint], 1e-10);
+        EXPECT_NEAR(at[k].c[0].high, here.q[joint], 1e-10);
+        EXPECT_NEAR(at[k].c[1].high, here.v[axes + joint], 1e-9);
+        EXPECT_LT(over[k].c[0].high - over[k].c[0].low, 0.1);
+      }
+    }
   }
-  Problem problem = load_problem("planar/trajectory");
+}
+
+/// No tube: places of another size, not numbers, or a pose that the arm does not reach.
+TEST(TrajectoryModel, LosesDependentJointsThatHaveNoSolution) {
+  Problem problem = load_problem("mobile/trajectory");
+  const Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
+  const Eigen::MatrixXd places = dependent_places(problem, knots);
+  EXPECT_EQ(TrajectoryModel(problem, knots, places).lost().reason, "");
+  for (const Eigen::MatrixXd& wrong :
+       {Eigen::MatrixXd(), Eigen::MatrixXd(places.leftCols(places.cols() - 1)),
+        Eigen::MatrixXd(places.topRows(2)), Eigen::MatrixXd(places * NAN)}) {
+    EXPECT_NE(TrajectoryModel(problem, knots, wrong).lost().reason, "");
+  }
+  for (Joint& joint : problem.robot.joints) joint.placement.p *= 0.2;  // too short for the pose
+  const TrajectoryModel model(problem, knots, places);
+  EXPECT_NE(model.lost().reason, "");
+  EXPECT_FALSE(model.dependent(0, Narrow(0.5))[0].c[1].magnitude() < 1e10);
+}
+
+TEST(TrajectoryModel, RejectsOtherTasks) {
+  EXPECT_THROW(require_provable(load_problem("planar/force")), std::invalid_argument);
+  Problem problem = load_problem("mobile/trajectory");
+  EXPECT_NO_THROW(require_provable(problem));
+  problem.robot.base_axes = {0, 1, 2, 5};  // two equations for three joints
+  EXPECT_THROW(require_provable(problem), std::invalid_argument);
+  problem = load_problem("planar/trajectory");
   problem.motion->path = Path::spline({0, 5, 10}, {problem.pose, problem.pose, problem.pose});
   EXPECT_THROW(require_provable(problem), std::invalid_argument);
   problem = load_problem("planar/trajectory");
