@@ -120,6 +120,10 @@ PostureCoordinates::PostureCoordinates(const Problem& problem, int without)
   }
 }
 
+bool is_free(const Robot& robot, int axis) {
+  return std::find(robot.base_axes.begin(), robot.base_axes.end(), axis) != robot.base_axes.end();
+}
+
 double rest_of(const Problem& problem, std::size_t joint) {
   if (problem.contact) return problem.contact->q_rest[static_cast<Eigen::Index>(joint)];
   const Joint& at = problem.robot.joints[joint];

@@ -50,6 +50,9 @@ struct PostureCoordinates {
 /// and so may collisions between these links and others.
 int joint_about_yaw(const Problem& problem);
 
+/// Whether the base moves along an axis (0 to 2) or about one (3 to 5).
+bool is_free(const Robot& robot, int axis);
+
 /// The position of a joint that is not a coordinate.
 double rest_of(const Problem& problem, std::size_t joint);
 

@@ -4,6 +4,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "verify/coordinates.h"
 #include "verify/model.h"
 
 namespace maxwrench {
@@ -13,10 +14,6 @@ namespace {
 /// equations of a posture exactly. Each side of a row may have an error of this share of the sum of
 /// its terms' magnitudes: about ten factors, each with a few rounding errors.
 constexpr long double kRoundedData = 64 * std::numeric_limits<double>::epsilon();
-
-bool is_free(const Robot& robot, int axis) {
-  return std::find(robot.base_axes.begin(), robot.base_axes.end(), axis) != robot.base_axes.end();
-}
 
 /// A pose as forms.
 struct FormPose {

@@ -1,6 +1,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 
+#include "verify/coordinates.h"
 #include "verify/trajectory/trajectory_model.h"
 
 // The dependent joints of a moving robot, enclosed in time.
@@ -22,11 +23,6 @@ constexpr double kUnknown = 1e20;
 using NarrowBox = std::vector<Narrow>;
 
 double middle_of(const Narrow& x) { return (x.low + x.high) / 2; }
-
-bool is_free(const Problem& problem, int axis) {
-  const std::vector<int>& axes = problem.robot.base_axes;
-  return std::find(axes.begin(), axes.end(), axis) != axes.end();
-}
 
 Eigen::VectorXd middles(const NarrowBox& box) {
   Eigen::VectorXd q(static_cast<Eigen::Index>(box.size()));
@@ -116,11 +112,12 @@ NarrowBox solve_near_one(const NarrowBox& b, const std::vector<NarrowBox>& off) 
 }  // namespace
 
 int dependent_equations(const Problem& problem) {
-  const std::vector<int>& axes = problem.robot.base_axes;
-  int count = is_free(problem, 5) ? 2 : 3;
-  for (int axis = 0; axis < 3; ++axis) count += is_free(problem, axis) ? 0 : 1;
-  // A base that turns about another axis has equations of its own.
-  return is_free(problem, 3) || is_free(problem, 4) || axes.size() == 6 ? 0 : count;
+  const Robot& robot = problem.robot;
+  // A base that turns about another axis would have other equations.
+  if (is_free(robot, 3) || is_free(robot, 4)) return 0;
+  int count = is_free(robot, 5) ? 2 : 3;
+  for (int axis = 0; axis < 3; ++axis) count += is_free(robot, axis) ? 0 : 1;
+  return count;
 }
 
 /// Where the base's pose is that of its free axes: no displacement along the others, and a rotation
@@ -135,9 +132,9 @@ std::vector<Jet<N>> TrajectoryModel::equations(const Frame<N>& tool, std::vector
   const auto [R, p] = from_mount(base_of(tool, q));
   std::vector<Jet<N>> F;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!is_free(problem_, axis)) F.push_back(p[static_cast<std::size_t>(axis)]);
+    if (!is_free(problem_.robot, axis)) F.push_back(p[static_cast<std::size_t>(axis)]);
   }
-  if (is_free(problem_, 5)) {
+  if (is_free(problem_.robot, 5)) {
     F.push_back(R[0][2]);
     F.push_back(R[1][2]);
   } else {
@@ -166,7 +163,7 @@ bool TrajectoryModel::is_upright(const Place& at, const NarrowBox& X) const {
     q[static_cast<std::size_t>(problem_.dependent[k])] = X[k];
   }
   const JetMatrix<1> R = from_mount(base_of(at.tool, q)).R;
-  if (is_free(problem_, 5)) return R[2][2].c[0].low > 0;
+  if (is_free(problem_.robot, 5)) return R[2][2].c[0].low > 0;
   return (R[0][0].c[0] + R[1][1].c[0] + R[2][2].c[0]).low > 0;
 }
 

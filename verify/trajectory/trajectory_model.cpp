@@ -244,22 +244,19 @@ auto TrajectoryModel::from_mount(const Frame<N>& base) const -> Frame<N> {
 /// depend on them they vanish.
 template <int N>
 std::vector<Jet<N>> TrajectoryModel::off_axes(const Frame<N>& base) const {
-  const std::vector<int>& axes = problem_.robot.base_axes;
-  if (axes.size() == 6 || !problem_.dependent.empty()) return {};
-  const auto is_free = [&axes](int axis) {
-    return std::find(axes.begin(), axes.end(), axis) != axes.end();
-  };
+  const Robot& robot = problem_.robot;
+  if (robot.base_axes.size() == 6 || !problem_.dependent.empty()) return {};
   const auto [R, p] = from_mount(base);
   std::vector<Jet<N>> off;
   for (int axis = 0; axis < 3; ++axis) {
-    if (!is_free(axis)) off.push_back(p[static_cast<std::size_t>(axis)]);
+    if (!is_free(robot, axis)) off.push_back(p[static_cast<std::size_t>(axis)]);
   }
   for (std::size_t i = 0; i < 3; ++i) {
     for (std::size_t j = 0; j < 3; ++j) {
-      if (i != j && !(is_free(5) && i < 2 && j < 2)) off.push_back(R[i][j]);
+      if (i != j && !(is_free(robot, 5) && i < 2 && j < 2)) off.push_back(R[i][j]);
     }
     // A half turn has the same entries off the diagonal.
-    if (i == 2 || !is_free(5)) off.push_back(R[i][i] - Jet<N>(1.0));
+    if (i == 2 || !is_free(robot, 5)) off.push_back(R[i][i] - Jet<N>(1.0));
   }
   return off;
 }

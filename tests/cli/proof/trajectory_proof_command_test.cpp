@@ -44,6 +44,26 @@ TEST(CertifyTrajectoryCommand, ProvesAndIsVerified) {
   EXPECT_EQ(rows.err, "maxwrench: --sample: got 3, expected no such option with a certificate\n");
 }
 
+/// Joints that depend on the base's free axes. The certificate is for this task alone.
+TEST(CertifyTrajectoryCommand, ProvesDependentJoints) {
+  const TemporaryFolder folder;
+  const std::string file = folder.path() / "mobile.proof";
+  const CommandResult result =
+      run_maxwrench("certify mobile/trajectory --theta-r 0,-1 --json --certificate " + file);
+  EXPECT_EQ(result.exit_status, 0) << result.err;
+  const json proof = json::parse(result.out);
+  EXPECT_EQ(proof["status"], "proven");
+  const double guaranteed = proof["guaranteed"], between = proof["value_between_knots"];
+  EXPECT_LE(guaranteed, between);
+  EXPECT_GE(guaranteed, between * (1 - 5e-4));
+  const CommandResult check = run_maxwrench("verify --json " + file);
+  EXPECT_EQ(check.exit_status, 0) << check.err;
+  EXPECT_EQ(json::parse(check.out)["guaranteed"], guaranteed);
+  const CommandResult other = run_maxwrench("verify --problem planar/trajectory --json " + file);
+  EXPECT_EQ(other.exit_status, 1);
+  EXPECT_EQ(json::parse(other.out)["reason"], "it is for another robot or task");
+}
+
 /// A damaged file has exit status 2 and one line.
 TEST(CertifyTrajectoryCommand, RejectsADamagedCertificate) {
   const TemporaryFolder folder;
