@@ -13,6 +13,7 @@
 #include "solvers/search/starts.h"
 #include "solvers/solve/method.h"
 #include "verify/certificate.h"
+#include "verify/trajectory/provable.h"
 
 namespace maxwrench {
 namespace {

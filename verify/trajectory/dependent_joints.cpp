@@ -1,7 +1,8 @@
-#include <Eigen/LU>
 #include <algorithm>
 
+#include "maxwrench/interruption.h"
 #include "verify/coordinates.h"
+#include "verify/trajectory/narrow_box.h"
 #include "verify/trajectory/trajectory_model.h"
 
 // The dependent joints of a moving robot, enclosed in time.
@@ -13,112 +14,14 @@ namespace {
 constexpr int kMostCellCuts = 12;
 /// [rad or m] Boxes begin with this half width, and no wider ones are tried than the second one.
 constexpr double kFirstWidth = 1e-9, kMostWidth = 0.5;
-constexpr int kMostGrowths = 40, kNewtonSteps = 20, kRefinements = 3;
+constexpr int kMostGrowths = 40, kNewtonSteps = 20;
 /// A box is contracted until that leaves more than a share of its width.
 constexpr int kMostContractions = 8;
 constexpr double kWorthContracting = 0.8;
-/// Larger numbers stand for joints that are not enclosed: no limit holds then, and slices are cut.
-constexpr double kUnknown = 1e20;
-
-using NarrowBox = std::vector<Narrow>;
-
-double middle_of(const Narrow& x) { return (x.low + x.high) / 2; }
-
-Eigen::VectorXd middles(const NarrowBox& box) {
-  Eigen::VectorXd q(static_cast<Eigen::Index>(box.size()));
-  for (std::size_t i = 0; i < box.size(); ++i) q[static_cast<Eigen::Index>(i)] = middle_of(box[i]);
-  return q;
-}
-
-double width_of(const NarrowBox& box) {
-  double width = 0;
-  for (const Narrow& x : box) width = std::max(width, x.high - x.low);
-  return width;
-}
-
-bool lies_in(const NarrowBox& inner, const NarrowBox& outer) {
-  for (std::size_t i = 0; i < inner.size(); ++i) {
-    if (!(inner[i].low > outer[i].low && inner[i].high < outer[i].high)) return false;
-  }
-  return true;
-}
 
 std::vector<Jet<1>> constants(const NarrowBox& box) { return {box.begin(), box.end()}; }
 
-/// An approximate inverse of the middles of M; empty if there is none.
-Eigen::MatrixXd inverse_of_middles(const std::vector<NarrowBox>& M) {
-  const auto n = static_cast<Eigen::Index>(M.size());
-  Eigen::MatrixXd middle(n, n);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    middle.row(i) = middles(M[static_cast<std::size_t>(i)]).transpose();
-  }
-  Eigen::MatrixXd inverse = middle.inverse();
-  if (!inverse.allFinite()) return {};
-  return inverse;
-}
-
-/// Y x, for numbers Y.
-NarrowBox product(const Eigen::MatrixXd& Y, const NarrowBox& x) {
-  NarrowBox y(x.size());
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    for (std::size_t j = 0; j < x.size(); ++j) {
-      y[i] += Y(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) * x[j];
-    }
-  }
-  return y;
-}
-
-/// 1 - Y A.
-std::vector<NarrowBox> deviation(const Eigen::MatrixXd& Y, const std::vector<NarrowBox>& A) {
-  const std::size_t n = A.size();
-  std::vector<NarrowBox> off(n, NarrowBox(n));
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) {
-      Narrow sum(i == j ? 1.0 : 0.0);
-      for (std::size_t k = 0; k < n; ++k) {
-        sum -= Y(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(k)) * A[k][j];
-      }
-      off[i][j] = sum;
-    }
-  }
-  return off;
-}
-
-/// b + off x.
-NarrowBox affine(const NarrowBox& b, const std::vector<NarrowBox>& off, const NarrowBox& x) {
-  NarrowBox y = b;
-  for (std::size_t i = 0; i < y.size(); ++i) {
-    for (std::size_t j = 0; j < x.size(); ++j) y[i] += off[i][j] * x[j];
-  }
-  return y;
-}
-
-/// Encloses the solutions of x = b + off x; empty if the norm of `off` is not well below one.
-NarrowBox solve_near_one(const NarrowBox& b, const std::vector<NarrowBox>& off) {
-  double norm = 0, size = 0;
-  for (std::size_t i = 0; i < b.size(); ++i) {
-    Narrow sum;
-    for (const Narrow& entry : off[i]) sum += Narrow(entry.magnitude());
-    norm = std::max(norm, sum.high);
-    size = std::max(size, b[i].magnitude());
-  }
-  if (!(norm < 0.9) || !(size < kUnknown)) return {};
-  const double most = (Narrow(size) / (Narrow(1.0) - Narrow(norm))).high;
-  NarrowBox x(b.size(), Narrow(-most, most));
-  for (int i = 0; i < kRefinements; ++i) x = affine(b, off, x);
-  return x;
-}
-
 }  // namespace
-
-int dependent_equations(const Problem& problem) {
-  const Robot& robot = problem.robot;
-  // A base that turns about another axis would have other equations.
-  if (is_free(robot, 3) || is_free(robot, 4)) return 0;
-  int count = is_free(robot, 5) ? 2 : 3;
-  for (int axis = 0; axis < 3; ++axis) count += is_free(robot, axis) ? 0 : 1;
-  return count;
-}
 
 /// Where the base's pose is that of its free axes: no displacement along the others, and a rotation
 /// about the yaw alone, or none. A half turn about another axis satisfies the latter, too
@@ -248,11 +151,7 @@ void TrajectoryModel::make_tube(const Eigen::MatrixXd& dependent) {
       const Eigen::Index column = i * parts + j;
       const Eigen::VectorXd near = (dependent.col(column) + dependent.col(column + 1)) / 2;
       const double from = static_cast<double>(j) / whole, to = static_cast<double>(j + 1) / whole;
-      if (make_cells(i, from, to, near, 0)) continue;
-      if (lost_.reason.empty()) {
-        lost_ = {"the dependent joints may have no solution or several", time(i, from)};
-      }
-      return;
+      if (!make_cells(i, from, to, near, 0)) return;
     }
   }
   join_cells();
@@ -260,6 +159,7 @@ void TrajectoryModel::make_tube(const Eigen::MatrixXd& dependent) {
 
 bool TrajectoryModel::make_cells(int interval, double from, double to, const Eigen::VectorXd& near,
                                  int halvings) {
+  end_if_interrupted();
   const double middle = (from + to) / 2;
   const Eigen::VectorXd q = newton(place_at(interval, Narrow(middle)), near);
   const Place at = place_at(interval, {from, to});
@@ -269,7 +169,7 @@ bool TrajectoryModel::make_cells(int interval, double from, double to, const Eig
     return true;
   }
   if (halvings == kMostCellCuts) {
-    lost_ = {"the dependent joints may have no solution or several", time(interval, middle)};
+    lost_ = {X ? "the base may be upside down" : kNotEnclosed, time(interval, middle)};
     return false;
   }
   const Eigen::VectorXd next = q.allFinite() ? q : near;
@@ -277,8 +177,8 @@ bool TrajectoryModel::make_cells(int interval, double from, double to, const Eig
          make_cells(interval, middle, to, next, halvings + 1);
 }
 
-/// Checks that the solutions of neighbours are one at the instant that they share: a small box
-/// about it with one solution lies in both, which have one each.
+/// Checks that the solutions of neighbours are one at the instant that they share. A small box Z
+/// about it has one solution, which lies in K(Z). If both neighbours contain K(Z), it is theirs.
 void TrajectoryModel::join_cells() {
   const TubeCell* before = nullptr;
   int interval_before = 0;
@@ -287,7 +187,8 @@ void TrajectoryModel::join_cells() {
       if (before) {
         const Place at = place_at(interval_before, Narrow(before->to));
         const std::optional<NarrowBox> Z = enclose(at, newton(at, middles(before->q)));
-        if (!Z || !lies_in(*Z, before->q) || !lies_in(*Z, cell.q)) {
+        const std::optional<NarrowBox> K = Z ? krawczyk(at, *Z) : std::nullopt;
+        if (!K || !lies_in(*K, before->q) || !lies_in(*K, cell.q)) {
           lost_ = {"the dependent joints may jump", time(interval_before, before->to)};
           return;
         }
@@ -298,58 +199,59 @@ void TrajectoryModel::join_cells() {
   }
 }
 
-/// The equations F(q(t), t) = 0 hold at all times. With the coefficients of q up to k - 1 and a
-/// zero in place of the k-th, the k-th one of F is a_k, and the true one is a_k + F' q_k = 0.
-template <int N>
-std::vector<Jet<N>> TrajectoryModel::dependent_jets(int interval, const Narrow& x) const {
-  const std::size_t count = problem_.dependent.size();
-  std::vector<Jet<N>> jets(count);
-  const auto forget_from = [&jets](std::size_t k) {
-    for (Jet<N>& jet : jets) {
-      std::fill(jet.c.begin() + static_cast<std::ptrdiff_t>(k), jet.c.end(),
-                Narrow(-kUnknown, kUnknown));
-    }
-    return jets;
-  };
-  if (!lost_.reason.empty()) return forget_from(0);
-  NarrowBox X;
-  for (const TubeCell& cell : tube_[static_cast<std::size_t>(interval)]) {
-    if (cell.to < x.low || cell.from > x.high) continue;
-    if (X.empty()) X = cell.q;
-    for (std::size_t i = 0; i < count; ++i) {
-      X[i] = {std::min(X[i].low, cell.q[i].low), std::max(X[i].high, cell.q[i].high)};
+auto TrajectoryModel::dependent_box(int interval, const Narrow& x, const Place& at) const
+    -> NarrowBox {
+  const std::vector<TubeCell>& cells = tube_[static_cast<std::size_t>(interval)];
+  auto cell = std::lower_bound(cells.begin(), cells.end(), x.low,
+                               [](const TubeCell& each, double low) { return each.to < low; });
+  NarrowBox X = cell->q;
+  for (; cell != cells.end() && cell->from <= x.high; ++cell) {
+    for (std::size_t i = 0; i < X.size(); ++i) {
+      X[i] = {std::min(X[i].low, cell->q[i].low), std::max(X[i].high, cell->q[i].high)};
     }
   }
-  const Place at = place_at(interval, x);
   for (int i = 0; i < kMostContractions; ++i) {
     const std::optional<NarrowBox> K = krawczyk(at, X);
     if (!K) break;
     const double before = width_of(X);
-    for (std::size_t j = 0; j < count; ++j) {
+    for (std::size_t j = 0; j < X.size(); ++j) {
       const double low = std::max(X[j].low, (*K)[j].low), high = std::min(X[j].high, (*K)[j].high);
-      if (low <= high) X[j] = {low, high};  // false for NaN
+      if (low <= high) X[j] = {low, high};
     }
     if (!(width_of(X) < kWorthContracting * before)) break;
   }
-  for (std::size_t j = 0; j < count; ++j) jets[j].c[0] = X[j];
+  return X;
+}
+
+/// The equations F(q(t), t) = 0 hold at all times. With the coefficients of q up to k - 1 and a
+/// zero in place of the k-th, the k-th one of F is a_k, and the true one is a_k + F' q_k = 0.
+template <int N>
+std::optional<std::vector<Jet<N>>> TrajectoryModel::dependent_jets(int interval,
+                                                                   const Narrow& x) const {
+  if (!lost_.reason.empty()) return std::nullopt;
+  const Place at = place_at(interval, x);
+  const NarrowBox X = dependent_box(interval, x, at);
   const std::vector<NarrowBox> A = equation_slopes(at, X);
   const Eigen::MatrixXd Y = inverse_of_middles(A);
-  if (Y.size() == 0) return forget_from(1);
+  if (Y.size() == 0) return std::nullopt;
   const std::vector<NarrowBox> off = deviation(Y, A);
   Motion<N> motion;
   move_tool(interval, x, motion);
   const std::vector<Jet<N>> q = joints_of_theta_r<N>(interval, x);
+  std::vector<Jet<N>> jets(X.begin(), X.end());
   for (std::size_t k = 1; k <= N; ++k) {
     NarrowBox a;
     for (const Jet<N>& f : equations(motion.tool, q, jets)) a.push_back(-f.c[k]);
     const NarrowBox next = solve_near_one(product(Y, a), off);
-    if (next.empty()) return forget_from(k);
-    for (std::size_t j = 0; j < count; ++j) jets[j].c[k] = next[j];
+    if (next.empty()) return std::nullopt;
+    for (std::size_t j = 0; j < jets.size(); ++j) jets[j].c[k] = next[j];
   }
   return jets;
 }
 
-template std::vector<Jet<3>> TrajectoryModel::dependent_jets<3>(int, const Narrow&) const;
-template std::vector<Jet<4>> TrajectoryModel::dependent_jets<4>(int, const Narrow&) const;
+template std::optional<std::vector<Jet<3>>> TrajectoryModel::dependent_jets<3>(int,
+                                                                               const Narrow&) const;
+template std::optional<std::vector<Jet<4>>> TrajectoryModel::dependent_jets<4>(int,
+                                                                               const Narrow&) const;
 
 }  // namespace maxwrench

@@ -181,23 +181,23 @@ MotionFault EffortLaw::check_slice(int interval, int edge, double from, double t
     return Narrow(std::max(x.low, 0.0), std::min(x.high, 1.0));
   };
   const double middle = (from + to) / 2;
-  const MotionLoads<1> at = model_.loads<3>(interval, place(middle));
-  const MotionLoads<2> over = model_.loads<4>(interval, place({from, to}));
+  const double t = model_.time(interval, (edge + middle) / proof_.parts);
+  const std::optional<MotionLoads<1>> at = model_.loads<3>(interval, place(middle));
+  const std::optional<MotionLoads<2>> over = model_.loads<4>(interval, place({from, to}));
+  if (!at || !over) return {kNotEnclosed, t};
   const Narrow r = ((to - from) / 2) * length_;
   MotionFault fault;
-  const std::vector<Quadratic> u = efforts(interval, edge, {from, to}, at, over);
+  const std::vector<Quadratic> u = efforts(interval, edge, {from, to}, *at, *over);
   for (std::size_t i = 0; i < u.size() && fault.reason.empty(); ++i) {
     if (!exerts_nothing(i)) fault = check_limits(i, u[i], r);
   }
-  for (std::size_t i = 0; i < at.off_axes.size() && fault.reason.empty(); ++i) {
-    const Quadratic off = {at.off_axes[i].c[0], at.off_axes[i].c[1], over.off_axes[i].c[2]};
+  for (std::size_t i = 0; i < at->off_axes.size() && fault.reason.empty(); ++i) {
+    const Quadratic off = {at->off_axes[i].c[0], at->off_axes[i].c[1], over->off_axes[i].c[2]};
     if (!(most(off, r) <= kOffFreeAxes) || !(least(off, r) >= -kOffFreeAxes)) {
       fault.reason = "the base may leave its free axes";
     }
   }
-  if (!fault.reason.empty()) {
-    fault.t = model_.time(interval, (edge + middle) / proof_.parts);
-  }
+  if (!fault.reason.empty()) fault.t = t;
   return fault;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "maxwrench/interruption.h"
+
 namespace maxwrench {
 namespace {
 
@@ -89,6 +91,7 @@ class ClearanceProof {
     for (int interval = 0; interval < model_.curve().intervals(); ++interval) {
       std::vector<TimeSlice> open = {{interval, 0, 1, 0, all}};
       while (!open.empty()) {
+        end_if_interrupted();
         TimeSlice slice = std::move(open.back());
         open.pop_back();
         MotionFault fault = check(slice);
@@ -107,6 +110,7 @@ class ClearanceProof {
   MotionFault check(TimeSlice& slice) {
     const double middle = (slice.from + slice.to) / 2;
     links_ = model_.links(slice.interval, middle);
+    moved_ = model_.moved_from_middle(slice.interval, slice.from, slice.to);
     ++result_.places;
     const bool last = slice.cuts == kMostTimeCuts || result_.places >= kMostPlaces;
     std::vector<int> left;
@@ -124,7 +128,7 @@ class ClearanceProof {
       if (!(near.clearance >= -kTouching)) {
         return fault("collide: they are closer than their margin by " + in_metres(-near.clearance));
       }
-      const double least = near.clearance - kDistanceRounding - approach(slice, pair);
+      const double least = near.clearance - kDistanceRounding - approach(pair);
       if (least >= -kTouching) {
         result_.clearance = std::min(result_.clearance, least);
       } else if (last) {
@@ -138,13 +142,13 @@ class ClearanceProof {
   }
 
   /// [m] How much nearer the bodies of a pair may come from the middle of a slice to its ends.
-  double approach(const TimeSlice& slice, int pair) const {
-    Narrow speed;
+  double approach(int pair) const {
+    Narrow distance;
     for (const Lever& lever : levers_[static_cast<std::size_t>(pair)]) {
-      speed +=
-          lever.reach * Narrow(model_.fastest(lever.joint, slice.interval, slice.from, slice.to));
+      if (!(moved_[lever.joint] < kInfinity)) return kInfinity;
+      distance += lever.reach * Narrow(moved_[lever.joint]);
     }
-    return (speed * (((slice.to - slice.from) / 2) * Narrow(1.0)) / model_.curve().rate()).high;
+    return distance.high;
   }
 
   const TrajectoryModel& model_;
@@ -152,7 +156,8 @@ class ClearanceProof {
   TrajectoryVerification& result_;
   std::vector<std::vector<Lever>> levers_;  ///< of each pair
   std::vector<char> known_;                 ///< whether a pair is one of capsules and boxes
-  std::vector<Pose<double>> links_;
+  std::vector<Pose<double>> links_;         ///< in the middle of a slice
+  std::vector<double> moved_;               ///< how far joints can be from there
 };
 
 }  // namespace

@@ -42,57 +42,7 @@ Jet<N> progress_of(Timing timing, const Jet<N>& s) {
   return s;
 }
 
-[[noreturn]] void throw_unprovable(const Problem& problem, const char* got, const char* expected) {
-  throw std::invalid_argument(problem.name + ": got " + got + ", expected " + expected +
-                              " for a proof in time");
-}
-
 }  // namespace
-
-void require_provable(const Problem& problem) {
-  if (!problem.motion) throw_unprovable(problem, "a static task", "a trajectory or an impulse");
-  const MotionTask& task = *problem.motion;
-  const bool open_start = task.impulse && task.start == Start::kZero;
-  const bool moves = task.k + (task.impulse ? 1 : 0) >= 2;
-  const std::vector<std::pair<bool, std::array<const char*, 2>>> cases = {
-      {problem.contact.has_value(), {"a second contact", "one contact"}},
-      {!problem.dependent.empty() &&
-           dependent_equations(problem) != static_cast<int>(problem.dependent.size()),
-       {"dependent joints that the base's axes do not determine", "as many as axes that it lacks"}},
-      {problem.free.count() > 0, {"free pose coordinates", "a path"}},
-      {!problem.scenarios.empty(), {"a list of scenarios", "one wrench of the nominal robot"}},
-      {!task.path.as_screw(),
-       {"a path through given poses", "one that rotates about an axis and translates"}},
-      {task.transfer, {"a transfer", "a trajectory or an impulse"}},
-      {task.thruster_lag != 0, {"motion.thruster_lag", "thrust without lag"}},
-      {task.has_factor(), {"a payload or a table of wrenches", "one wrench along a path"}},
-      {!moves, {"k = 1", "k >= 2"}},
-      {open_start, {"start.kind = \"zero\"", "a start in balance"}},
-      {!problem.robot.no_dynamics.empty(), {"a robot without dynamics", "complete inertias"}},
-      {!problem.robot.actuation.full_row_rank(),
-       {"actuators that do not reach all generalised forces", "B of full row rank"}},
-  };
-  for (const auto& [refused, words] : cases) {
-    if (refused) throw_unprovable(problem, words[0], words[1]);
-  }
-}
-
-void require_provable_task(const Problem& problem) {
-  const ScenarioList& list = problem.scenarios;
-  if (list.empty()) return require_provable(problem);
-  for (const ScenarioWrench& wrench : list.wrenches) {
-    if (wrench.hold) throw_unprovable(problem, "wrench.hold", "a wrench in each scenario");
-  }
-  if (list.ball || list.payload || !list.loads.empty()) {
-    throw_unprovable(problem, "a ball, a payload or uncertain loads", "wrenches and limits");
-  }
-  if (!problem.dependent.empty()) {
-    throw_unprovable(problem, "a list of scenarios and dependent joints", "one of them");
-  }
-  Problem alone = problem;
-  alone.scenarios = {};
-  require_provable(alone);
-}
 
 TrajectoryModel::TrajectoryModel(const Problem& problem, const Eigen::MatrixXd& table,
                                  const Eigen::MatrixXd& dependent)
@@ -128,21 +78,46 @@ std::vector<Jet<N>> TrajectoryModel::joints_of_theta_r(int interval, const Narro
 }
 
 template <int N>
-std::vector<Jet<N>> TrajectoryModel::joints(int interval, const Narrow& x) const {
+std::optional<std::vector<Jet<N>>> TrajectoryModel::joints(int interval, const Narrow& x) const {
   std::vector<Jet<N>> q = joints_of_theta_r<N>(interval, x);
   if (problem_.dependent.empty()) return q;
-  const std::vector<Jet<N>> dependent = dependent_jets<N>(interval, x);
+  const std::optional<std::vector<Jet<N>>> dependent = dependent_jets<N>(interval, x);
+  if (!dependent) return std::nullopt;
+  for (std::size_t k = 0; k < dependent->size(); ++k) {
+    q[static_cast<std::size_t>(problem_.dependent[k])] = (*dependent)[k];
+  }
+  return q;
+}
+
+NarrowBox TrajectoryModel::positions(int interval, const Narrow& x) const {
+  NarrowBox q;
+  for (const Jet<3>& jet : joints_of_theta_r<3>(interval, x)) q.push_back(jet.c[0]);
+  if (problem_.dependent.empty()) return q;
+  const NarrowBox dependent = dependent_box(interval, x, place_at(interval, x));
   for (std::size_t k = 0; k < dependent.size(); ++k) {
     q[static_cast<std::size_t>(problem_.dependent[k])] = dependent[k];
   }
   return q;
 }
 
-double TrajectoryModel::fastest(std::size_t joint, int interval, double x_0, double x_1) const {
-  if (coordinate_of_[joint] >= 0) return curve_.fastest(coordinate_of_[joint], interval, x_0, x_1);
-  if (dependent_of_[joint] < 0) return 0;
-  const auto k = static_cast<std::size_t>(dependent_of_[joint]);
-  return dependent_jets<3>(interval, {x_0, x_1})[k].c[1].magnitude();
+std::vector<double> TrajectoryModel::moved_from_middle(int interval, double x_0, double x_1) const {
+  std::vector<double> moved(rest_.size(), 0);
+  const NarrowBox here = positions(interval, Narrow((x_0 + x_1) / 2));
+  const auto dependent =
+      problem_.dependent.empty() ? std::vector<Jet<3>>() : dependent_jets<3>(interval, {x_0, x_1});
+  const Narrow half = (((x_1 - x_0) / 2) * Narrow(1.0)) / curve_.rate();
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    if (!moves(i)) continue;
+    double speed = kInfinity;
+    if (coordinate_of_[i] >= 0) {
+      speed = curve_.fastest(coordinate_of_[i], interval, x_0, x_1);
+    } else if (dependent) {
+      speed = (*dependent)[static_cast<std::size_t>(dependent_of_[i])].c[1].magnitude();
+    }
+    const Narrow width = Narrow(here[i].high) - Narrow(here[i].low);
+    moved[i] = speed < kInfinity ? (Narrow(speed) * half + width).high : kInfinity;
+  }
+  return moved;
 }
 
 /// The pose of a link in its parent's axes.
@@ -206,13 +181,14 @@ auto TrajectoryModel::base_of(const Frame<N>& tool, const std::vector<Jet<N>>& q
 }
 
 template <int N>
-auto TrajectoryModel::move(int interval, const Narrow& x) const -> Motion<N> {
+auto TrajectoryModel::move(int interval, const Narrow& x) const -> std::optional<Motion<N>> {
   const Robot& robot = problem_.robot;
   Motion<N> motion;
   move_tool(interval, x, motion);
-  const std::vector<Jet<N>> q = this->joints<N>(interval, x);
+  const std::optional<std::vector<Jet<N>>> q = this->joints<N>(interval, x);
+  if (!q) return std::nullopt;
   std::vector<Frame<N>> joints;
-  for (std::size_t i = 0; i < q.size(); ++i) joints.push_back(joint_frame(i, q[i]));
+  for (std::size_t i = 0; i < q->size(); ++i) joints.push_back(joint_frame(i, (*q)[i]));
   motion.links.resize(robot.links.size());
   std::vector<char> placed(robot.links.size(), 0);
   motion.links[static_cast<std::size_t>(inward_.empty() ? 0 : inward_.front())] =
@@ -262,8 +238,10 @@ std::vector<Jet<N>> TrajectoryModel::off_axes(const Frame<N>& base) const {
 }
 
 template <int N>
-MotionLoads<N - 2> TrajectoryModel::loads(int interval, const Narrow& x) const {
-  const Motion<N> motion = move<N>(interval, x);
+std::optional<MotionLoads<N - 2>> TrajectoryModel::loads(int interval, const Narrow& x) const {
+  const std::optional<Motion<N>> moving = move<N>(interval, x);
+  if (!moving) return std::nullopt;
+  const Motion<N>& motion = *moving;
   std::vector<Frame<N - 2>> links;
   std::vector<Wrenches<N - 2>> forces;
   for (std::size_t i = 0; i < motion.links.size(); ++i) {
@@ -284,8 +262,8 @@ MotionLoads<N - 2> TrajectoryModel::loads(int interval, const Narrow& x) const {
   return loads;
 }
 
-template MotionLoads<1> TrajectoryModel::loads<3>(int, const Narrow&) const;
-template MotionLoads<2> TrajectoryModel::loads<4>(int, const Narrow&) const;
+template std::optional<MotionLoads<1>> TrajectoryModel::loads<3>(int, const Narrow&) const;
+template std::optional<MotionLoads<2>> TrajectoryModel::loads<4>(int, const Narrow&) const;
 
 // For the dependent joints.
 template auto TrajectoryModel::base_of(const Frame<1>&, const std::vector<Jet<1>>&) const
@@ -304,11 +282,11 @@ template std::vector<Jet<4>> TrajectoryModel::joints_of_theta_r(int, const Narro
 
 std::vector<Pose<double>> TrajectoryModel::links(int interval, double x) const {
   const Robot& robot = problem_.robot;
-  const std::vector<Jet<3>> all = joints<3>(interval, Narrow(x));
+  const NarrowBox all = positions(interval, Narrow(x));
   std::vector<Pose<double>> links(1);
   for (std::size_t i = 0; i < robot.joints.size(); ++i) {
     const Joint& joint = robot.joints[i];
-    const double q = moves(i) ? (all[i].c[0].low + all[i].c[0].high) / 2 : rest_[i];
+    const double q = moves(i) ? middle_of(all[i]) : rest_[i];
     Pose<double> motion;
     if (joint.type == JointType::kRevolute) {
       motion.R = Eigen::AngleAxisd(q, joint.axis).toRotationMatrix();

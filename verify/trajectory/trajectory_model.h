@@ -6,17 +6,9 @@
 
 #include "maxwrench/problem.h"
 #include "verify/trajectory/knot_curve.h"
+#include "verify/trajectory/narrow_box.h"
 
 namespace maxwrench {
-
-/// Throws std::invalid_argument, in one line, unless the task is one that proofs in time support: a
-/// trajectory or impulse of one contact with at least two knots, a base whose pose has a closed
-/// form, a path that rotates about an axis and translates, a wrench along c, and B of full row
-/// rank.
-void require_provable(const Problem& problem);
-
-/// The same for a task that may have a list of scenarios: each is a task of its own, with a wrench.
-void require_provable_task(const Problem& problem);
 
 /// Why a motion does not satisfy its limits; `reason` is empty if it does.
 struct MotionFault {
@@ -24,8 +16,8 @@ struct MotionFault {
   double t = -1;  ///< the instant [s]
 };
 
-/// The number of equations of the dependent joints: one for each axis of the base that is not free.
-int dependent_equations(const Problem& problem);
+/// The reason of a fault.
+inline constexpr const char* kNotEnclosed = "the dependent joints may have no solution or several";
 
 /// All that the balance of a motion depends on, as jets at a place of the motion.
 template <int N>
@@ -70,21 +62,24 @@ class TrajectoryModel {
   }
 
   /// Encloses the loads for all x of an interval, in [0, 1]. N is the order of the joints' jets: 3
-  /// gives loads with their rate, 4 also with half of their second derivative.
+  /// gives loads with their rate, 4 also with half of their second derivative. Empty if the
+  /// dependent joints are not enclosed; narrower x may be.
   template <int N>
-  MotionLoads<N - 2> loads(int interval, const Narrow& x) const;
+  std::optional<MotionLoads<N - 2>> loads(int interval, const Narrow& x) const;
 
-  /// Poses of all links relative to the base, in ordinary arithmetic.
+  /// Poses of all links relative to the base, in ordinary arithmetic, near where they are at x.
   std::vector<Pose<double>> links(int interval, double x) const;
   /// Whether a joint is one of theta_r or depends on it; the others rest at `rest`.
   bool moves(std::size_t joint) const {
     return coordinate_of_[joint] >= 0 || dependent_of_[joint] >= 0;
   }
   const std::vector<double>& rest() const { return rest_; }
-  /// [rad/s or m/s] A bound of a joint's speed from x_0 to x_1.
-  double fastest(std::size_t joint, int interval, double x_0, double x_1) const;
-  /// The dependent joints for all x of an interval: position, rate and more.
-  std::vector<Jet<3>> dependent(int interval, const Narrow& x) const {
+  /// [rad or m] How far each joint can be, between x_0 and x_1, from where `links` has it in the
+  /// middle. Infinite where dependent joints are not enclosed.
+  std::vector<double> moved_from_middle(int interval, double x_0, double x_1) const;
+  /// The dependent joints for all x of an interval: position, rate and more. Empty if they are not
+  /// enclosed; narrower x may be.
+  std::optional<std::vector<Jet<3>>> dependent(int interval, const Narrow& x) const {
     return dependent_jets<3>(interval, x);
   }
 
@@ -107,14 +102,16 @@ class TrajectoryModel {
   };
 
   template <int N>
-  Motion<N> move(int interval, const Narrow& x) const;
+  std::optional<Motion<N>> move(int interval, const Narrow& x) const;
   template <int N>
   void move_tool(int interval, const Narrow& x, Motion<N>& motion) const;
-  /// The jets of all joints. `joints_of_theta_r` leaves the dependent ones at zero.
+  /// The jets of all joints. `joints_of_theta_r` leaves the dependent ones at rest.
   template <int N>
   std::vector<Jet<N>> joints_of_theta_r(int interval, const Narrow& x) const;
   template <int N>
-  std::vector<Jet<N>> joints(int interval, const Narrow& x) const;
+  std::optional<std::vector<Jet<N>>> joints(int interval, const Narrow& x) const;
+  /// The positions of all joints.
+  NarrowBox positions(int interval, const Narrow& x) const;
   template <int N>
   Frame<N> joint_frame(std::size_t joint, const Jet<N>& q) const;
   /// The outer frame, from a frame at `in` inside it.
@@ -143,14 +140,13 @@ class TrajectoryModel {
   /// Part of an interval, and the box in which the dependent joints are there.
   struct TubeCell {
     double from, to;
-    std::vector<Narrow> q;
+    NarrowBox q;
   };
   /// The end effector and the joints at any one place of a stretch of time.
   struct Place {
     Frame<1> tool;
     std::vector<Jet<1>> q;
   };
-  using NarrowBox = std::vector<Narrow>;
 
   Place place_at(int interval, const Narrow& x) const;
   /// The equations at the given dependent joints: numbers that vanish while the base is on its free
@@ -166,8 +162,10 @@ class TrajectoryModel {
   void make_tube(const Eigen::MatrixXd& dependent);
   bool make_cells(int interval, double from, double to, const Eigen::VectorXd& near, int halvings);
   void join_cells();
+  /// A box that contains the dependent joints at all x, which are those of `at`.
+  NarrowBox dependent_box(int interval, const Narrow& x, const Place& at) const;
   template <int N>
-  std::vector<Jet<N>> dependent_jets(int interval, const Narrow& x) const;
+  std::optional<std::vector<Jet<N>>> dependent_jets(int interval, const Narrow& x) const;
 
   const Problem& problem_;
   ScrewPath path_;

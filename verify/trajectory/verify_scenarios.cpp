@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "verify/trajectory/provable.h"
 #include "verify/trajectory/scenario_task.h"
 #include "verify/trajectory/verify_trajectory.h"
 

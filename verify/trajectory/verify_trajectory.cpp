@@ -8,6 +8,7 @@
 
 #include "maxwrench/interruption.h"
 #include "verify/trajectory/motion_clearance.h"
+#include "verify/trajectory/provable.h"
 
 namespace maxwrench {
 namespace {
@@ -15,6 +16,7 @@ namespace {
 /// Larger numbers are rejected, so that no product of them overflows.
 constexpr double kLargestKnot = 1e6, kLargestEffort = 1e30;
 constexpr int kMostEdges = 10'000'000;
+constexpr int kMostPlacesInInterval = 64;  // of dependent joints
 /// [s] Durations are within these.
 constexpr double kShortest = 1e-6, kLongest = 1e9;
 
@@ -40,10 +42,11 @@ std::string reject_sizes(const Problem& problem, const TrajectoryCertificate& pr
     return "its knots have another size";
   }
   const Eigen::Index intervals = task.k - (task.impulse ? 0 : 1);
-  const Eigen::Index places = proof.dependent.cols();
-  if (proof.dependent.rows() != static_cast<Eigen::Index>(problem.dependent.size()) ||
-      (!problem.dependent.empty() &&
-       (places <= intervals || places > kMostEdges || (places - 1) % intervals != 0))) {
+  const Eigen::Index places = proof.dependent.cols(), parts = (places - 1) / intervals;
+  const bool fits = problem.dependent.empty() ? places == 0
+                                              : parts >= 1 && parts <= kMostPlacesInInterval &&
+                                                    places == parts * intervals + 1;
+  if (proof.dependent.rows() != static_cast<Eigen::Index>(problem.dependent.size()) || !fits) {
     return "its dependent joints have another size";
   }
   if (proof.parts < 1 || proof.parts > kMostEdges / intervals) return "it has no edges or too many";
@@ -116,16 +119,13 @@ MotionFault check_efforts(const EffortLaw& law, int intervals, int parts, int th
   return fault;
 }
 
-}  // namespace
-
-namespace {
-
 /// Why a dependent joint leaves its limits, or may do so, at some place of a stretch of an
 /// interval.
 std::string leaving(const TrajectoryModel& model, int interval, const Narrow& x) {
   const Problem& problem = model.problem();
-  const std::vector<Jet<3>> jets = model.dependent(interval, x);
-  for (std::size_t k = 0; k < jets.size(); ++k) {
+  const std::optional<std::vector<Jet<3>>> jets = model.dependent(interval, x);
+  if (!jets) return kNotEnclosed;
+  for (std::size_t k = 0; k < jets->size(); ++k) {
     const Joint& joint = problem.robot.joints[static_cast<std::size_t>(problem.dependent[k])];
     const auto beyond = [&](const Narrow& at, double lower, double upper, const char* what,
                             const char* unit) -> std::string {
@@ -135,9 +135,9 @@ std::string leaving(const TrajectoryModel& model, int interval, const Narrow& x)
              in_six_digits(above ? upper : lower) +
              (joint.type == JointType::kRevolute ? " rad" : " m") + unit;
     };
-    std::string reason = beyond(jets[k].c[0], joint.q_min, joint.q_max, " is at ", "");
+    std::string reason = beyond((*jets)[k].c[0], joint.q_min, joint.q_max, " is at ", "");
     if (reason.empty()) {
-      reason = beyond(jets[k].c[1], -joint.velocity_max, joint.velocity_max, " moves at ", "/s");
+      reason = beyond((*jets)[k].c[1], -joint.velocity_max, joint.velocity_max, " moves at ", "/s");
     }
     if (!reason.empty()) return reason;
   }
@@ -151,10 +151,11 @@ MotionFault check_dependent(const TrajectoryModel& model) {
     double from, to;
     int halvings;
   };
-  constexpr int kMostStretchCuts = 16;
+  constexpr int kMostStretchCuts = 12;
   for (int interval = 0; interval < model.curve().intervals(); ++interval) {
     std::vector<Stretch> open = {{0, 1, 0}};
     while (!open.empty()) {
+      end_if_interrupted();
       const Stretch stretch = open.back();
       open.pop_back();
       if (leaving(model, interval, {stretch.from, stretch.to}).empty()) continue;

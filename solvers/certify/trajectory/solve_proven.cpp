@@ -14,6 +14,7 @@
 #include "solvers/certify/trajectory/edge_program.h"
 #include "solvers/search/slp_run.h"
 #include "verify/trajectory/motion_clearance.h"
+#include "verify/trajectory/provable.h"
 #include "verify/trajectory/verify_trajectory.h"
 
 namespace maxwrench {
@@ -88,45 +89,48 @@ bool tighten_limits(const Problem& task, const Eigen::MatrixXd& knots, double& w
                     Problem& tight) {
   const TrajectoryModel model(task, knots, dependent_places(task, knots));
   if (!model.lost().reason.empty()) return false;
-  bool exceeds = false;
+  bool exceeds = false, possible = true;
   // Limits of the task, and those that become tighter.
-  const auto tighten = [&](int index, const auto& jet_of, const Narrow& limits, double& lower,
+  const auto tighten = [&](int index, const auto& jet_of, double q_min, double q_max, double& lower,
                            double& upper) {
     const auto joint = static_cast<std::size_t>(index);
     const double speed = task.robot.joints[joint].velocity_max;
     double fastest = 0, lowest = kInfinity, highest = -kInfinity;
     for (int i = 0; i < model.curve().intervals() * kPartsOfCurve; ++i) {
       const double x = i % kPartsOfCurve / double{kPartsOfCurve};
-      const Jet<3> q = jet_of(i / kPartsOfCurve, Narrow(x, x + 1.0 / kPartsOfCurve));
-      fastest = std::max(fastest, q.c[1].magnitude());
-      lowest = std::min(lowest, q.c[0].low);
-      highest = std::max(highest, q.c[0].high);
+      const std::optional<Jet<3>> q = jet_of(i / kPartsOfCurve, Narrow(x, x + 1.0 / kPartsOfCurve));
+      if (!q) continue;
+      fastest = std::max(fastest, q->c[1].magnitude());
+      lowest = std::min(lowest, q->c[0].low);
+      highest = std::max(highest, q->c[0].high);
     }
     if (fastest > speed + kKnotTolerance) {
       tight.robot.joints[joint].velocity_max *= speed / fastest * (1 - kTighterBy);
       exceeds = true;
     }
-    const double below = limits.low - lowest, above = highest - limits.high;
+    const double below = q_min - lowest, above = highest - q_max;
     if (below > kKnotTolerance) lower += below * (1 + kTighterBy);
     if (above > kKnotTolerance) upper -= above * (1 + kTighterBy);
     exceeds = exceeds || below > kKnotTolerance || above > kKnotTolerance;
   };
   for (int k = 0; k < task.redundancy(); ++k) {
     const auto jet_of = [&](int interval, const Narrow& x) {
-      return model.curve().at<3>(k, interval, x);
+      return std::optional(model.curve().at<3>(k, interval, x));
     };
-    tighten(task.redundant[static_cast<std::size_t>(k)], jet_of,
-            {task.theta_r_min[k], task.theta_r_max[k]}, tight.theta_r_min[k], tight.theta_r_max[k]);
+    tighten(task.redundant[static_cast<std::size_t>(k)], jet_of, task.theta_r_min[k],
+            task.theta_r_max[k], tight.theta_r_min[k], tight.theta_r_max[k]);
   }
   for (std::size_t k = 0; k < task.dependent.size(); ++k) {
-    const auto jet_of = [&](int interval, const Narrow& x) {
-      return model.dependent(interval, x)[k];
+    const auto jet_of = [&](int interval, const Narrow& x) -> std::optional<Jet<3>> {
+      const auto dependent = model.dependent(interval, x);
+      if (!dependent) return std::nullopt;
+      return (*dependent)[k];
     };
     const auto index = static_cast<std::size_t>(task.dependent[k]);
-    Joint& joint = tight.robot.joints[index];
-    tighten(task.dependent[k], jet_of,
-            {task.robot.joints[index].q_min, task.robot.joints[index].q_max}, joint.q_min,
-            joint.q_max);
+    const Joint& joint = task.robot.joints[index];
+    Joint& tighter = tight.robot.joints[index];
+    tighten(task.dependent[k], jet_of, joint.q_min, joint.q_max, tighter.q_min, tighter.q_max);
+    possible = possible && tighter.q_min <= tighter.q_max;
   }
   const double depth = deepest_collision(model);
   if (depth > kTouching) {
@@ -134,7 +138,7 @@ bool tighten_limits(const Problem& task, const Eigen::MatrixXd& knots, double& w
     wider = std::max(2 * wider, depth * kMoreThanDepth);
     tight.robot.collision = std::make_shared<WiderMargin>(task.robot.collision, wider);
   }
-  return exceeds && (tight.theta_r_min.array() <= tight.theta_r_max.array()).all();
+  return exceeds && possible && (tight.theta_r_min.array() <= tight.theta_r_max.array()).all();
 }
 
 /// Efforts that change as fast as they must between the instants of a search do not at all times:

@@ -15,6 +15,7 @@
 #include "solvers/solve/method.h"
 #include "solvers/solve/scenario_alone.h"
 #include "verify/trajectory/motion_clearance.h"
+#include "verify/trajectory/provable.h"
 #include "verify/trajectory/verify_trajectory.h"
 
 namespace maxwrench {

@@ -7,6 +7,7 @@
 #include "maxwrench/trajectory.h"
 #include "solvers/certify/trajectory/edge_program.h"
 #include "tests/support/support.h"
+#include "verify/trajectory/provable.h"
 
 namespace maxwrench {
 namespace {
@@ -77,8 +78,8 @@ TEST(TrajectoryModel, HoldsTheLoadsOfTheOtherDynamics) {
     for (int sample = 0; sample < 12; ++sample) {
       const int interval = sample % intervals, first = 4 * (sample % 6);
       const double from = first / 24.0, to = (first + 4) / 24.0, middle = (from + to) / 2;
-      const MotionLoads<1> at = model.loads<3>(interval, Narrow(middle));
-      const MotionLoads<2> over = model.loads<4>(interval, Narrow(from, to));
+      const MotionLoads<1> at = model.loads<3>(interval, Narrow(middle)).value();
+      const MotionLoads<2> over = model.loads<4>(interval, Narrow(from, to)).value();
       for (int part = first; part <= first + 4; ++part) {
         if (problem.motion->impulse && interval == 0 && part == 0) continue;  // at rest there
         const ModelInstant expected = lib.at(interval, part, parts);
@@ -107,13 +108,15 @@ TEST(TrajectoryModel, HoldsTheLoadsOfTheOtherDynamics) {
 TEST(TrajectoryModel, KnowsTheFreeAxes) {
   Problem problem = load_problem("planar/trajectory");
   const Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
-  for (const Jet<1>& off : TrajectoryModel(problem, knots).loads<3>(1, Narrow(0.5)).off_axes) {
+  const auto at_rest = TrajectoryModel(problem, knots).loads<3>(1, Narrow(0.5)).value();
+  for (const Jet<1>& off : at_rest.off_axes) {
     EXPECT_LT(off.c[0].magnitude(), 1e-12);
   }
   problem.motion->path = Path::screw(problem.pose, Eigen::Vector3d::UnitX(), problem.pose.p, 0.1,
                                      Eigen::Vector3d::Zero(), Timing::kCubic, problem.motion->T);
   double most = 0;
-  for (const Jet<1>& off : TrajectoryModel(problem, knots).loads<3>(6, Narrow(1.0)).off_axes) {
+  const auto turned = TrajectoryModel(problem, knots).loads<3>(6, Narrow(1.0)).value();
+  for (const Jet<1>& off : turned.off_axes) {
     most = std::max(most, off.c[0].magnitude());
   }
   EXPECT_NEAR(most, std::sin(0.1), 0.02);
@@ -136,9 +139,9 @@ TEST(TrajectoryModel, EnclosesDependentJoints) {
     for (int part = 0; part <= parts; ++part) {
       const Instant& here = instants[static_cast<std::size_t>(interval * parts + part)];
       const double x = part / double{parts};
-      const std::vector<Jet<3>> at = model.dependent(interval, Narrow(x));
+      const std::vector<Jet<3>> at = model.dependent(interval, Narrow(x)).value();
       const Narrow around(std::max(0.0, x - 0.03), std::min(1.0, x + 0.05));
-      const std::vector<Jet<3>> over = model.dependent(interval, around);
+      const std::vector<Jet<3>> over = model.dependent(interval, around).value();
       for (std::size_t k = 0; k < problem.dependent.size(); ++k) {
         const Eigen::Index joint = problem.dependent[k];
         expect_holds(over[k].c[0], here.q[joint], 1e-11, "position");
@@ -151,6 +154,44 @@ TEST(TrajectoryModel, EnclosesDependentJoints) {
       }
     }
   }
+}
+
+/// Dependent joints that rest, whose boxes in time are as narrow as they begin.
+TEST(TrajectoryModel, EnclosesDependentJointsAtRest) {
+  const Problem problem = load_problem(source_path("examples/tasks/rover_impulse.toml"));
+  const Eigen::MatrixXd knots = constant_knots(problem, problem.motion->theta_0);
+  const Eigen::MatrixXd places = dependent_places(problem, knots);
+  const TrajectoryModel model(problem, knots, places);
+  EXPECT_EQ(model.lost().reason, "");
+  const std::vector<double> moved = model.moved_from_middle(0, 0, 1);
+  for (const int joint : problem.dependent) EXPECT_LT(moved[static_cast<std::size_t>(joint)], 1e-9);
+}
+
+/// Between two places, no joint is farther from the middle than it may be.
+TEST(TrajectoryModel, KnowsHowFarJointsMove) {
+  const Problem problem = load_problem("mobile/trajectory");
+  Random random(6);
+  const Eigen::MatrixXd knots = moving_knots(problem, random);
+  const TrajectoryModel model(problem, knots, dependent_places(problem, knots));
+  ASSERT_EQ(model.lost().reason, "");
+  MotionEvaluator motion(problem, make_dense_spline(*problem.motion, 24));
+  std::vector<Instant> instants;
+  motion.evaluate(all_knots(*problem.motion, knots), instants);
+  double most = 0;
+  for (int interval = 0; interval < model.curve().intervals(); ++interval) {
+    const std::vector<double> moved = model.moved_from_middle(interval, 0.25, 0.5);
+    const Instant& middle = instants[static_cast<std::size_t>(interval * 24 + 9)];
+    for (int part = 6; part <= 12; ++part) {
+      const Instant& here = instants[static_cast<std::size_t>(interval * 24 + part)];
+      for (std::size_t joint = 0; joint < moved.size(); ++joint) {
+        const double from = middle.q[static_cast<Eigen::Index>(joint)];
+        const double to = here.q[static_cast<Eigen::Index>(joint)];
+        EXPECT_LE(std::abs(to - from), moved[joint] + 1e-11) << joint;
+        most = std::max(most, std::abs(to - from));
+      }
+    }
+  }
+  EXPECT_GT(most, 1e-3);
 }
 
 /// No tube: places of another size, not numbers, or a pose that the arm does not reach.
@@ -167,7 +208,8 @@ TEST(TrajectoryModel, LosesDependentJointsThatHaveNoSolution) {
   for (Joint& joint : problem.robot.joints) joint.placement.p *= 0.2;  // too short for the pose
   const TrajectoryModel model(problem, knots, places);
   EXPECT_NE(model.lost().reason, "");
-  EXPECT_FALSE(model.dependent(0, Narrow(0.5))[0].c[1].magnitude() < 1e10);
+  EXPECT_FALSE(model.dependent(0, Narrow(0.5)));
+  EXPECT_FALSE(model.loads<3>(0, Narrow(0.5)));
 }
 
 TEST(TrajectoryModel, RejectsOtherTasks) {
@@ -175,6 +217,9 @@ TEST(TrajectoryModel, RejectsOtherTasks) {
   Problem problem = load_problem("mobile/trajectory");
   EXPECT_NO_THROW(require_provable(problem));
   problem.robot.base_axes = {0, 1, 2, 5};  // two equations for three joints
+  EXPECT_THROW(require_provable(problem), std::invalid_argument);
+  problem = load_problem("mobile/trajectory");
+  problem.robot.joints.back().gear = Gear{problem.dependent.front(), 1, 0};
   EXPECT_THROW(require_provable(problem), std::invalid_argument);
   problem = load_problem("planar/trajectory");
   problem.motion->path = Path::spline({0, 5, 10}, {problem.pose, problem.pose, problem.pose});
