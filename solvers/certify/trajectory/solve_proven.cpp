@@ -30,6 +30,7 @@ constexpr long kLocalEvaluations = 300;
 constexpr int kHalvingsOfShare = 12;
 constexpr int kMostInstantsOfSearch = 16;  // in an interval between knots
 constexpr double kFirstSlower = 8e-3;      // share of the effort rates
+constexpr double kFirstWeaker = 2.5e-4;    // share of the efforts
 /// More instants are worth a round where a proof loses this share of the value.
 constexpr double kLossOfInstants = 5e-4;
 /// Extremes between knots are found on this many parts.
@@ -142,12 +143,22 @@ bool tighten_limits(const Problem& task, const Eigen::MatrixXd& knots, double& w
 }
 
 /// Efforts that change as fast as they must between the instants of a search do not at all times:
-/// adds instants, and makes the rates slower by a share. Returns the share.
-double tighten_rates(const Problem& task, double slower, Problem& tight) {
+/// adds instants, and makes the rates slower by a share. Without rates it makes the efforts smaller
+/// by a share: where a motion needs all of one, no wrench leaves the margin of a proof. Returns the
+/// share.
+double tighten_efforts(const Problem& task, double before, Problem& tight) {
   int& instants = tight.motion->instants_per_interval;
   instants = std::min(2 * instants, kMostInstantsOfSearch);
-  const double share = std::max(2 * slower, kFirstSlower);
-  tight.robot.u_rate_max = (1 - share) * task.robot.u_rate_max;
+  const Zonotope& set = task.robot.actuation;
+  const bool rates = task.motion->rates && (task.robot.u_rate_max.array() < kInfinity).any();
+  const double share = std::max(2 * before, rates ? kFirstSlower : kFirstWeaker);
+  if (rates) {
+    tight.robot.u_rate_max = (1 - share) * task.robot.u_rate_max;
+  } else {
+    Eigen::VectorXd less = share / 2 * (set.u_max - set.u_min);
+    less = less.array().isFinite().select(less, 0);
+    tight.robot.actuation = with_limits(set, set.u_min + less, set.u_max - less);
+  }
   return share;
 }
 
@@ -244,7 +255,7 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
     return proof;
   }
   Eigen::MatrixXd knots = found.trajectory.knots;
-  double slower = 0;
+  double share_of_efforts = 0;
   std::optional<FirstTrajectory> first;
   int& instants = tight.motion->instants_per_interval;
   for (int round = 1;; ++round) {
@@ -263,7 +274,7 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
     if (status == Status::kInvalidPosture) {
       if (!tighten_limits(task, knots, wider, tight)) break;
     } else if (status != Status::kProven) {
-      slower = tighten_rates(task, slower, tight);
+      share_of_efforts = tighten_efforts(task, share_of_efforts, tight);
     } else if (instants < kMostInstantsOfSearch) {
       instants *= 2;
     } else {

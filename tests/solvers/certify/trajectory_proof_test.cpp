@@ -221,6 +221,19 @@ TEST(TrajectoryProof, SLOW_SolvesAProvenImpulseInAHurry) {
   EXPECT_GE(proof.answer.evaluations, searched.evaluations);
 }
 
+/// Wheels have no effort rates, and the plan of the search needs all of an effort at an instant
+/// where no wrench helps. It pushes 406.37 N at its instants, a posture that is held 187.94 N.
+TEST(TrajectoryProof, SLOW_SolvesAProvenImpulseOfDependentJoints) {
+  const Problem problem = load_problem(MAXWRENCH_SOURCE_DIR "/examples/tasks/rover_impulse.toml");
+  const TrajectoryProof proof = solve_proven(problem, {});
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  EXPECT_FALSE(proof.held);
+  EXPECT_GE(proof.guaranteed, proof.searched * (1 - 1e-3));
+  EXPECT_LE(proof.guaranteed, proof.answer.trajectory.value_between_knots);
+  EXPECT_NE(proof.rejection.find("shoulder_yaw moves at 1.50"), std::string::npos)
+      << proof.rejection;
+}
+
 /// With 100 evaluations the search ends at a trajectory that leaves the limits of the wrist between
 /// its instants, and so do those from there. The default posture, held, is worth a little less.
 TEST(TrajectoryProof, SaysWhereAPostureIsHeldInsteadOfWhatWasFound) {
