@@ -81,9 +81,6 @@ void require_provable_task(const Problem& problem) {
   if (list.ball || list.payload || !list.loads.empty()) {
     throw_unprovable(problem, "a ball, a payload or uncertain loads", "wrenches and limits");
   }
-  if (!problem.dependent.empty()) {
-    throw_unprovable(problem, "a list of scenarios and dependent joints", "one of them");
-  }
   Problem alone = problem;
   alone.scenarios = {};
   require_provable(alone);

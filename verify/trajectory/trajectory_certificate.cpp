@@ -10,9 +10,27 @@
 namespace maxwrench {
 namespace {
 
-constexpr std::string_view kTrajectoryMagic = "maxwrench trajectory proof 1\n";
-constexpr std::string_view kTrajectoryListMagic = "maxwrench trajectory proof 2\n";
-constexpr std::string_view kDependentMagic = "maxwrench trajectory proof 3\n";
+/// How a certificate begins, and what it has.
+struct Kind {
+  std::string_view magic;
+  bool list, depends;  ///< several scenarios; dependent joints
+};
+constexpr Kind kKinds[] = {{"maxwrench trajectory proof 1\n", false, false},
+                           {"maxwrench trajectory proof 2\n", true, false},
+                           {"maxwrench trajectory proof 3\n", false, true},
+                           {"maxwrench trajectory proof 4\n", true, true}};
+
+std::string_view magic_of(bool list, bool depends) {
+  return kKinds[(list ? 1 : 0) + (depends ? 2 : 0)].magic;
+}
+
+/// Null if the file is no certificate of a trajectory.
+const Kind* find_kind(const std::string& file) {
+  for (const Kind& kind : kKinds) {
+    if (begins_with(file, kind.magic)) return &kind;
+  }
+  return nullptr;
+}
 
 void put_dynamics(ByteWriter& to, const Robot& robot) {
   for (const Link& link : robot.links) {
@@ -54,7 +72,7 @@ void put_motion(ByteWriter& to, const MotionTask& task) {
   to.whole(static_cast<std::uint64_t>(path.timing), 1);
 }
 
-void put_claim(ByteWriter& raw, const TrajectoryCertificate& proof) {
+void put_claim(ByteWriter& raw, const TrajectoryCertificate& proof, bool depends) {
   raw.words(proof.version);
   raw.words(proof.problem);
   raw.whole(proof.collision ? 1 : 0, 1);
@@ -65,10 +83,11 @@ void put_claim(ByteWriter& raw, const TrajectoryCertificate& proof) {
   raw.count(proof.parts);
   raw.matrix(proof.y);
   raw.matrix(proof.w);
+  if (depends) raw.matrix(proof.dependent);
 }
 
 /// Reads what `put_claim` wrote. False if the numbers cannot be those of a certificate.
-bool get_claim(ByteReader& from, TrajectoryCertificate& proof) {
+bool get_claim(ByteReader& from, bool depends, TrajectoryCertificate& proof) {
   proof.version = from.words();
   proof.problem = from.words();
   proof.collision = from.whole(1) == 1;
@@ -80,6 +99,7 @@ bool get_claim(ByteReader& from, TrajectoryCertificate& proof) {
   const std::uint64_t parts = from.whole(8);
   proof.y = from.matrix();
   const Eigen::MatrixXd w = from.matrix();
+  if (depends) proof.dependent = from.matrix();
   const bool plain = fits_in_a_line(proof.version) && fits_in_a_line(proof.problem);
   if (!from.good() || !plain || t_h > kMost || parts > kMost || (w.size() > 0 && w.cols() != 1)) {
     return false;
@@ -102,40 +122,31 @@ std::uint64_t motion_digest(const Problem& problem) {
 
 std::string certificate_text(const TrajectoryCertificate& proof) {
   ByteWriter raw;
-  put_claim(raw, proof);
-  if (proof.dependent.size() == 0) return seal(kTrajectoryMagic, raw.text());
-  raw.matrix(proof.dependent);
-  return seal(kDependentMagic, raw.text());
+  const bool depends = proof.dependent.size() > 0;
+  put_claim(raw, proof, depends);
+  return seal(magic_of(false, depends), raw.text());
 }
 
 std::string certificate_text(const std::vector<TrajectoryCertificate>& scenarios) {
   ByteWriter raw;
   raw.count(static_cast<Eigen::Index>(scenarios.size()));
-  for (const TrajectoryCertificate& each : scenarios) put_claim(raw, each);
-  return seal(kTrajectoryListMagic, raw.text());
+  const bool depends = !scenarios.empty() && scenarios.front().dependent.size() > 0;
+  for (const TrajectoryCertificate& each : scenarios) put_claim(raw, each, depends);
+  return seal(magic_of(true, depends), raw.text());
 }
 
-bool is_trajectory_certificate(const std::string& file) {
-  return begins_with(file, kTrajectoryMagic) || begins_with(file, kTrajectoryListMagic) ||
-         begins_with(file, kDependentMagic);
-}
+bool is_trajectory_certificate(const std::string& file) { return find_kind(file) != nullptr; }
 
 std::vector<TrajectoryCertificate> read_trajectory_certificates(const std::string& file) {
-  const bool list = begins_with(file, kTrajectoryListMagic);
-  const bool depends = begins_with(file, kDependentMagic);
-  const std::string raw = unseal(file, list      ? kTrajectoryListMagic
-                                       : depends ? kDependentMagic
-                                                 : kTrajectoryMagic);
+  const Kind* const found = find_kind(file);
+  const auto [magic, list, depends] = found ? *found : kKinds[0];
+  const std::string raw = unseal(file, magic);
   ByteReader from(raw);
   constexpr std::size_t kLeastBytes = 64;  // of a certificate
   const std::size_t count = list ? from.count(kLeastBytes) : 1;
   std::vector<TrajectoryCertificate> all;
   bool good = count > 0;
-  while (good && all.size() < count) good = get_claim(from, all.emplace_back());
-  if (good && depends) {
-    all.back().dependent = from.matrix();
-    good = from.good();
-  }
+  while (good && all.size() < count) good = get_claim(from, depends, all.emplace_back());
   if (!good || !from.at_end()) {
     throw std::invalid_argument(file + ": got a damaged file, expected a whole certificate");
   }

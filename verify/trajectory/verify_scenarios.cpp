@@ -14,6 +14,10 @@ std::size_t certificate_count(const Problem& problem) {
   return problem.scenarios.empty() ? 1 : static_cast<std::size_t>(scenario_count(problem));
 }
 
+bool are_equal(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+  return a.rows() == b.rows() && a.cols() == b.cols() && (a.array() == b.array()).all();
+}
+
 /// Empty, or why the certificates are not those of one trajectory of the list.
 std::string reject_list(const Problem& problem, const std::vector<TrajectoryCertificate>& proofs) {
   if (proofs.size() != certificate_count(problem)) return "it is for another robot or task";
@@ -23,9 +27,8 @@ std::string reject_list(const Problem& problem, const std::vector<TrajectoryCert
       return "its scenarios are of different tasks or versions";
     }
     if (each.collision != proofs[0].collision || each.t_h != proofs[0].t_h ||
-        each.knots.rows() != proofs[0].knots.rows() ||
-        each.knots.cols() != proofs[0].knots.cols() ||
-        !(each.knots.array() == proofs[0].knots.array()).all()) {
+        !are_equal(each.knots, proofs[0].knots) ||
+        !are_equal(each.dependent, proofs[0].dependent)) {
       return "its scenarios are of different trajectories";
     }
   }

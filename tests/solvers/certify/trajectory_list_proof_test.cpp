@@ -135,6 +135,35 @@ TEST(TrajectoryListProof, FactorsAreThoseOfTheStatedWrenches) {
   EXPECT_NEAR(2 * twice.guaranteed, once.guaranteed, 1e-9 * once.guaranteed);
 }
 
+/// One wheel or another may be dead. All scenarios are of one motion of the dependent joints.
+TEST(TrajectoryListProof, ProvesDependentJoints) {
+  const TemporaryFolder folder;
+  const std::string task = folder.path() / "push.toml", file = folder.path() / "push.proof";
+  std::string text = read_text(MAXWRENCH_SOURCE_DIR "/problems/mobile/trajectory.toml");
+  const std::string robot = "\"rover.toml\"";
+  ASSERT_NE(text.find(robot), std::string::npos);
+  text.replace(text.find(robot), robot.size(),
+               "\"" MAXWRENCH_SOURCE_DIR "/problems/mobile/rover.toml\"");
+  std::ofstream(task) << text << "\n[loss]\ncases = [[\"front_left\"], [\"rear_right\"]]\n";
+  const Problem problem = load_problem(task);
+  TrajectoryProofOptions how;
+  how.keep_certificate = true;
+  const TrajectoryProof proof = certify_trajectory(problem, default_knots(problem), {}, how);
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  EXPECT_EQ(proof.scenarios, 3);
+  const double between = proof.answer.trajectory.value_between_knots;
+  EXPECT_LE(proof.guaranteed, between + 1e-9);
+  EXPECT_NEAR(proof.guaranteed, between, 5e-4 * between);
+  std::ofstream(file, std::ios::binary) << proof.certificate;
+  std::vector<TrajectoryCertificate> claims = read_trajectory_certificates(file);
+  ASSERT_EQ(claims.size(), 3u);
+  const TaskVerification check = verify(problem, claims, 2);
+  EXPECT_EQ(check.rejection, "");
+  EXPECT_EQ(check.guaranteed, proof.guaranteed);
+  claims[1].dependent(0, 0) += 1e-9;
+  EXPECT_EQ(verify(problem, claims, 2).rejection, "its scenarios are of different trajectories");
+}
+
 TEST(TrajectoryListProof, RefusesScenariosThatOnlyHold) {
   Problem problem = load_problem(turn_file());
   problem.scenarios.wrenches.push_back({.name = "hold", .hold = true});
