@@ -73,6 +73,11 @@ class TrajectoryProver {
   TrajectoryProof run() {
     const auto start = ProofClock::now();
     if (keeps_limits()) prove_wrench();
+    // A base that cannot follow the path, for instance.
+    if (proof_.status == Status::kNumericalError &&
+        proof_.answer.status == Status::kInvalidPosture) {
+      proof_.conclude(Status::kInvalidPosture, proof_.answer.reason.str());
+    }
     proof_.seconds = seconds_from(start);
     if (how_.keep_certificate && proof_.status == Status::kProven) {
       proof_.certificate = certificate_text(best_);

@@ -279,6 +279,17 @@ TEST(TrajectoryProof, RejectsOtherTasksAndChoices) {
   EXPECT_THROW(certify_trajectory(fixed, fixed.theta_r_default), std::invalid_argument);
 }
 
+/// The path turns about x, and the planar vehicle cannot.
+TEST(TrajectoryProof, SaysThatTheBaseCannotFollow) {
+  Problem problem = load_problem("planar/trajectory");
+  problem.motion->path = Path::screw(problem.pose, Eigen::Vector3d::UnitX(), problem.pose.p, 0.1,
+                                     Eigen::Vector3d::Zero(), Timing::kCubic, problem.motion->T);
+  const TrajectoryProof proof =
+      certify_trajectory(problem, constant_knots(problem, problem.theta_r_default));
+  EXPECT_EQ(proof.status, Status::kInvalidPosture) << proof.reason.str();
+  EXPECT_EQ(proof.reason.str(), proof.answer.reason.str());
+}
+
 /// Thrusters that are too slow cannot carry the turn around: no efforts balance it.
 TEST(TrajectoryProof, SaysWhereNothingBalances) {
   Problem problem = load_problem("uvms/valve_trajectory");
