@@ -142,6 +142,13 @@ bool tighten_limits(const Problem& task, const Eigen::MatrixXd& knots, double& w
   return exceeds && possible && (tight.theta_r_min.array() <= tight.theta_r_max.array()).all();
 }
 
+/// A set with limits of efforts that are nearer to their mean by a share.
+Zonotope shrunk(const Zonotope& set, double share) {
+  const Eigen::VectorXd range = set.u_max - set.u_min;
+  const Eigen::VectorXd less = share / 2 * range.array().isFinite().select(range, 0).matrix();
+  return with_limits(set, set.u_min + less, set.u_max - less);
+}
+
 /// Efforts that change as fast as they must between the instants of a search do not at all times:
 /// adds instants, and makes the rates slower by a share. Without rates it makes the efforts smaller
 /// by a share: where a motion needs all of one, no wrench leaves the margin of a proof. Returns the
@@ -149,15 +156,15 @@ bool tighten_limits(const Problem& task, const Eigen::MatrixXd& knots, double& w
 double tighten_efforts(const Problem& task, double before, Problem& tight) {
   int& instants = tight.motion->instants_per_interval;
   instants = std::min(2 * instants, kMostInstantsOfSearch);
-  const Zonotope& set = task.robot.actuation;
   const bool rates = task.motion->rates && (task.robot.u_rate_max.array() < kInfinity).any();
   const double share = std::max(2 * before, rates ? kFirstSlower : kFirstWeaker);
   if (rates) {
     tight.robot.u_rate_max = (1 - share) * task.robot.u_rate_max;
-  } else {
-    Eigen::VectorXd less = share / 2 * (set.u_max - set.u_min);
-    less = less.array().isFinite().select(less, 0);
-    tight.robot.actuation = with_limits(set, set.u_min + less, set.u_max - less);
+    return share;
+  }
+  tight.robot.actuation = shrunk(task.robot.actuation, share);
+  for (std::size_t i = 0; i < task.scenarios.limits.size(); ++i) {
+    tight.scenarios.limits[i].actuation = shrunk(task.scenarios.limits[i].actuation, share);
   }
   return share;
 }
