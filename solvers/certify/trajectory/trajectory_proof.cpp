@@ -74,8 +74,9 @@ class TrajectoryProver {
     const auto start = ProofClock::now();
     if (keeps_limits()) prove_wrench();
     // A base that cannot follow the path, for instance.
-    if (proof_.status == Status::kNumericalError &&
+    if (proof_.status != Status::kProven && proof_.status != Status::kInvalidPosture &&
         proof_.answer.status == Status::kInvalidPosture) {
+      proof_.t = std::numeric_limits<double>::quiet_NaN();
       proof_.conclude(Status::kInvalidPosture, proof_.answer.reason.str());
     }
     proof_.seconds = seconds_from(start);
