@@ -141,7 +141,7 @@ def test_bad_proofs(tmp_path, rejects):
     rejects(mw.certify, "planar/force", gap=-1)
     rejects(mw.certify, "planar/force", gap=float("nan"))
     rejects(mw.certify, "planar/force", seconds=-1)
-    rejects(mw.certify, "mobile/trajectory")
+    rejects(mw.certify, "mobile/trajectory", wrench="any")
     rejects(mw.certify, "planar/force", measure="manipulability")
 
 
