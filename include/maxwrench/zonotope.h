@@ -25,10 +25,10 @@ struct Zonotope {
   /// products with all normals are vectorised.
   Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> N;
   Eigen::SparseMatrix<double> N_nonzero;  ///< N without its zeros, by columns
-  /// Column j of N is zero before row N_begin[j] and from row N_end[j] on (f). Neither decreases.
-  std::vector<int> N_begin, N_end;
-  Eigen::VectorXd b_min,  ///< lower limits of N'tau (f)
-      b_max;              ///< upper limits of N'tau (f)
+  std::vector<int> N_begin,  ///< column j of N is zero before row N_begin[j] (f), not decreasing
+      N_end;                 ///< and from row N_end[j] on (f), not decreasing
+  Eigen::VectorXd b_min,     ///< lower limits of N'tau (f)
+      b_max;                 ///< upper limits of N'tau (f)
 
   /// Returns n, the number of generalised forces.
   int dimension() const { return static_cast<int>(B.rows()); }

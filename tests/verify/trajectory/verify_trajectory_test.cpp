@@ -310,45 +310,5 @@ TEST(VerifyTrajectory, FindsACollisionBetweenSamples) {
   EXPECT_NEAR(result.t, model.time(interval, x), problem.motion->T / 9 / 25);
 }
 
-/// A certificate with dependent joints; each change of it is rejected.
-TEST(VerifyTrajectory, KnowsDependentJoints) {
-  Problem problem = load_problem("mobile/trajectory");
-  const Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
-  const TrajectoryCertificate proof = certified(problem, knots, 25);
-  ASSERT_EQ(proof.dependent.rows(), 3);
-  EXPECT_TRUE(verify(problem, proof, 1).verified());
-  // The places only tell solutions apart.
-  TrajectoryCertificate changed = proof;
-  changed.dependent.array() += 0.01;
-  EXPECT_TRUE(verify(problem, changed, 1).verified());
-  changed.value *= 1.01;
-  EXPECT_FALSE(verify(problem, changed, 1).verified());
-  changed = proof;
-  changed.dependent.col(5) *= -1;  // another solution, or none
-  EXPECT_FALSE(verify(problem, changed, 1).verified());
-  changed.dependent.resize(0, 0);
-  EXPECT_EQ(verify(problem, changed, 1).rejection, "its dependent joints have another size");
-  changed.dependent.setConstant(3, proof.dependent.cols(), NAN);
-  EXPECT_FALSE(verify(problem, changed, 1).verified());
-}
-
-/// The speed limit of a dependent joint, below its largest speed.
-TEST(VerifyTrajectory, HoldsTheSpeedsOfDependentJoints) {
-  Problem problem = load_problem("mobile/trajectory");
-  Eigen::MatrixXd knots = constant_knots(problem, problem.theta_r_default);
-  for (Eigen::Index i = 0; i < knots.rows(); ++i) knots(i, 1) += 0.02 * static_cast<double>(i % 2);
-  const Eigen::MatrixXd places = dependent_places(problem, knots);
-  EXPECT_EQ(check_motion(TrajectoryModel(problem, knots, places)).reason, "");
-  Joint& elbow = problem.robot.joints[static_cast<std::size_t>(problem.dependent.front())];
-  elbow.velocity_max = 0.01;
-  const MotionFault fault = check_motion(TrajectoryModel(problem, knots, places));
-  EXPECT_NE(fault.reason.find(elbow.name + " moves at "), std::string::npos) << fault.reason;
-  EXPECT_GT(fault.t, 0);
-  elbow.velocity_max = 10;
-  elbow.q_max = places.row(0).minCoeff() - 0.01;
-  EXPECT_NE(check_motion(TrajectoryModel(problem, knots, places)).reason.find(" is at "),
-            std::string::npos);
-}
-
 }  // namespace
 }  // namespace maxwrench
