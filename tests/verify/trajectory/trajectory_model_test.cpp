@@ -70,7 +70,7 @@ TEST(TrajectoryModel, HoldsTheLoadsOfTheOtherDynamics) {
           expect_holds(over.tau_d[row].c[0], expected.tau_d[i], 1e-9, name);
           if (2 * part == 2 * first + wide) {  // at the middle it is tight
             // Rates of dependent joints have the rounding of several matrices in turn.
-            const double rounding = problem.dependent.empty() ? 1e-8 : 1e-6;
+            const double rounding = problem.dependent.empty() ? 1e-8 : 1e-7;
             EXPECT_NEAR(at.tau_d[row].c[0].low, expected.tau_d[i], rounding) << name;
             EXPECT_NEAR(at.tau_d[row].c[0].high, expected.tau_d[i], rounding) << name;
           }
