@@ -85,6 +85,12 @@ int certify_motion(const CertifyCommandOptions& options, const CLI::App& command
     throw std::invalid_argument("--certificate: got --t-h " + *options.motion.t_h +
                                 ", expected the peak that the task has without it");
   }
+  if (!options.certificate.empty() && options.motion.thruster_lag) {
+    throw std::invalid_argument(
+        fmt::format("--certificate: got --thruster-lag {}, expected motion.thruster_lag in the "
+                    "task's file",
+                    *options.motion.thruster_lag));
+  }
   require_apart(
       {{"path.file", problem.motion->path_file}, {"--theta-r", options.theta_r.value_or("")}},
       {{"--certificate", options.certificate}});

@@ -33,9 +33,10 @@ PaperTable reproduce_dual(const std::filesystem::path& folder, int threads);
 /// Also writes each trajectory found to a table trajectories/TASK_SCHEME.csv of the folder.
 /// `budget` is the budget of each search.
 PaperTable reproduce_motion(const std::filesystem::path& folder, int threads, long budget);
-/// What the trajectories of `reproduce_motion` in the folder, and those planned for the lag of the
-/// tank's thrusters, are worth when executed. Writes no rows, but the trajectories planned for the
-/// lag, to trajectories/TASK_SCHEME_lag.csv.
+/// What the trajectories of `reproduce_motion` in the folder, and the best ones that are proven,
+/// are worth when executed. Writes no rows, but the proven trajectories, to
+/// trajectories/TASK_SCHEME_proven.csv, and those planned for the lag of the tank's thrusters to
+/// trajectories/TASK_SCHEME_lag.csv.
 PaperTable reproduce_tank(const std::filesystem::path& folder, int threads, long budget);
 
 }  // namespace maxwrench

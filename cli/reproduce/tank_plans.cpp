@@ -25,14 +25,12 @@ struct TankPlan {
   Eigen::MatrixXd knots;
 };
 
-/// What is proven without regard to the lag; none for schemes that are no motion.
+/// What is proven; none for schemes that are no motion.
 double proven_value(const TankPlan& plan, int threads) {
   if (plan.problem.motion->scheme != Scheme::kSpline) return std::nan("");
-  Problem problem = plan.problem;
-  problem.motion->thruster_lag = 0;
   Options options;
   options.threads = threads;
-  const TrajectoryProof proof = certify_trajectory(problem, plan.knots, options);
+  const TrajectoryProof proof = certify_trajectory(plan.problem, plan.knots, options);
   return proof.status == Status::kProven ? proof.guaranteed : std::nan("");
 }
 
@@ -63,7 +61,8 @@ std::string plan_line(const TankPlan& plan, double proven, bool inverse) {
       ran ? fmt::format("{:.3f}", summary.configuration_error) : "-", held);
 }
 
-/// The constant default, the trajectories of `reproduce_motion`, and the best one for the lag.
+/// The trajectories of `reproduce_motion`; then, without and with the lag of the tank's thrusters,
+/// the constant default and the best trajectory that is proven.
 std::vector<TankPlan> plans_of(const char* name, const std::filesystem::path& folder, int threads,
                                long budget) {
   std::vector<TankPlan> plans;
@@ -75,17 +74,20 @@ std::vector<TankPlan> plans_of(const char* name, const std::filesystem::path& fo
     if (!std::filesystem::exists(file)) continue;
     plans.push_back({problem, "optimised", load_knots(file, problem)});
   }
-  plans.push_back({task, "constant", default_knots(task)});
-  Problem lagged = task;
-  lagged.motion->thruster_lag = TankOptions().thruster_lag;
-  plans.push_back({lagged, "constant", default_knots(task)});
   Options options;
   options.budget = budget;
   options.threads = threads;
-  const Answer found = solve(lagged, options);
-  if (!found.has_value()) return plans;
-  plans.push_back({lagged, "optimised", found.trajectory.knots});
-  write_file(trajectory_file(folder, lagged, "_lag"), knots_csv(lagged, found.trajectory.knots));
+  for (const bool lagged : {false, true}) {
+    Problem planned = task;
+    if (lagged) planned.motion->thruster_lag = TankOptions().thruster_lag;
+    plans.push_back({planned, "constant", default_knots(task)});
+    const TrajectoryProof found = solve_proven(planned, options);
+    if (found.status != Status::kProven) continue;
+    const Eigen::MatrixXd& knots = found.answer.trajectory.knots;
+    plans.push_back({planned, "proven", knots});
+    write_file(trajectory_file(folder, planned, lagged ? "_lag" : "_proven"),
+               knots_csv(planned, knots));
+  }
   return plans;
 }
 
@@ -95,11 +97,12 @@ PaperTable reproduce_tank(const std::filesystem::path& folder, int threads, long
   std::string text = fmt::format(
       "What each trajectory is worth when the virtual tank executes it (docs/tank.md).\n"
       "lag: time constant of the thrusters that the trajectory allows for, s; none: none.\n"
+      "found_by: optimised: of uvms_motion.txt; constant: the default posture; proven: --proven.\n"
       "feedforward: lead: as always; inverse: efforts that the thrusters reach (--invert-lag).\n"
-      "value: at the instants; between: between knots; proven: at every instant, without regard\n"
-      "to the lag; reading: the least along a path, in an impulse that at t_h; share: the reading\n"
-      "over the value that is planned, of which {:g} % less is requested; error: of all joints\n"
-      "and the base, rad or m, at most {:g} is allowed.\n",
+      "value: at the instants; between: between knots; proven: at every instant; reading: the\n"
+      "least along a path, in an impulse that at t_h; share: the reading over the value that is\n"
+      "planned, of which {:g} % less is requested; error: of all joints and the base, rad or m,\n"
+      "at most {:g} is allowed.\n",
       100 * TankOptions().margin, kTrackedConfigurationError);
   for (const char* name : {"uvms/valve_trajectory", "uvms/valve_impulse", "uvms/lift_impulse"}) {
     text += fmt::format(

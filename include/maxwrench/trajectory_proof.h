@@ -15,8 +15,8 @@ namespace maxwrench {
 
 /// The options of `certify_trajectory`.
 struct TrajectoryProofOptions {
-  /// The number of parts into which each interval between knots is cut at first. It is doubled
-  /// while the proof loses more than a share of 1e-4. 0: 25 along a path, 50 in an impulse.
+  /// The number of parts into which each interval between knots is cut at first. There are more
+  /// of them while the proof loses more than a share of 1e-4. 0: 25 along a path, 50 in an impulse.
   int parts = 0;
   bool keep_certificate = false;  ///< whether to write `TrajectoryProof::certificate`
 };
@@ -57,8 +57,8 @@ struct TrajectoryProof : Verdict {
 /// their factors.
 ///
 /// The motion is the clamped cubic spline through the knots, whatever the scheme of the task. The
-/// proof holds for all t: limits of efforts, of their rates, of theta_r and of its rates, and no
-/// collision. docs/algorithms/trajectory_proofs.md describes it.
+/// proof holds for all t: limits of efforts, of their rates, of commands where thrusters lag, of
+/// theta_r and of its rates, and no collision. docs/algorithms/trajectory_proofs.md describes it.
 ///
 /// @param task     a trajectory or an impulse of one contact, whose base's pose has a closed form
 /// @param knots    its knots (k×r)

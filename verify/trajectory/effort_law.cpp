@@ -154,20 +154,28 @@ bool EffortLaw::exerts_nothing(std::size_t actuator) const {
          proof_.y.row(row).isZero(0);
 }
 
+/// The thrust of a lagged thruster follows from the command u + T u_dot, which has its limits, too.
 MotionFault EffortLaw::check_limits(std::size_t actuator, const Quadratic& u,
                                     const Narrow& r) const {
   const Robot& robot = model_.problem().robot;
+  const MotionTask& task = *model_.problem().motion;
   const auto row = static_cast<Eigen::Index>(actuator);
-  const double high = most(u, r), low = least(u, r);
   const double u_max = robot.actuation.u_max[row], u_min = robot.actuation.u_min[row];
-  if (!(high <= u_max) || !(low >= u_min)) {
+  const auto beyond = [&](const char* what, const Quadratic& x) -> MotionFault {
+    const double high = most(x, r), low = least(x, r);
+    if (high <= u_max && low >= u_min) return {};
     const bool above = !(high <= u_max);
-    return {"the effort of " + actuator_name(robot, actuator) + " may be " +
-            in_digits(above ? high : low) + ", beyond its limit " +
-            in_digits(above ? u_max : u_min)};
+    return {what + actuator_name(robot, actuator) + " may be " + in_digits(above ? high : low) +
+            ", beyond its limit " + in_digits(above ? u_max : u_min)};
+  };
+  MotionFault fault = beyond("the effort of ", u);
+  if (fault.reason.empty() && actuator < robot.thrusters.size() && task.thruster_lag > 0 &&
+      u_min < u_max) {
+    const Narrow lag(task.thruster_lag);
+    fault = beyond("the command of ", {u[0] + lag * u[1], u[1] + 2.0 * (lag * u[2]), u[2]});
   }
   const double limit = robot.u_rate_max[row];
-  if (!model_.problem().motion->rates || !(limit < kInfinity)) return {};
+  if (!fault.reason.empty() || !task.rates || !(limit < kInfinity)) return fault;
   const double rate = (Narrow(u[1].magnitude()) + r * (2.0 * Narrow(u[2].magnitude()))).high;
   if (rate <= limit) return {};
   return {"the effort of " + actuator_name(robot, actuator) + " may change at a rate of " +

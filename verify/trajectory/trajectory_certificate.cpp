@@ -70,6 +70,7 @@ void put_motion(ByteWriter& to, const MotionTask& task) {
   to.matrix(path.displacement);
   to.real(path.angle);
   to.whole(static_cast<std::uint64_t>(path.timing), 1);
+  if (task.thruster_lag > 0) to.real(task.thruster_lag);
 }
 
 void put_claim(ByteWriter& raw, const TrajectoryCertificate& proof, bool depends) {

@@ -101,9 +101,11 @@ void EdgeProgram::measure_bends(const Eigen::VectorXd& w) {
 void EdgeProgram::tighten(double slack) {
   const Zonotope& set = problem_.robot.actuation;
   program_ = loose_;
-  if (slack < 0) return;
   const double H = problem_.motion->T / static_cast<double>(off_.cols());
   Eigen::VectorXd margin = off_.rowwise().maxCoeff();
+  const auto thrusters = static_cast<Eigen::Index>(problem_.robot.thrusters.size());
+  margin.head(thrusters) +=  // of commands
+      problem_.motion->thruster_lag * rate_off_.topRows(thrusters).rowwise().maxCoeff();
   for (Eigen::Index i = 0; i < margin.size(); ++i) {
     const double range = set.u_max[i] - set.u_min[i];
     if (!std::isfinite(range)) continue;
@@ -185,8 +187,7 @@ EdgeEfforts EdgeProgram::solve_program() {
 /// In an impulse only the peak has an objective. Without rates the wrench beside it could be any
 /// other one, and u(t) would leave its limits by O(H) between them.
 EdgeEfforts EdgeProgram::solve_steadily() {
-  program_ = loose_;
-  EdgeEfforts loose = solve_program();
+  const EdgeEfforts& loose = most();
   if (!problem_.motion->impulse || loose.status != Status::kOptimal) return loose;
   const Zonotope& set = problem_.robot.actuation;
   const Eigen::VectorXd step = (set.u_max - set.u_min) / parts_;
@@ -203,11 +204,19 @@ EdgeEfforts EdgeProgram::solve_steadily() {
   return loose;
 }
 
+const EdgeEfforts& EdgeProgram::most() {
+  if (!most_) {
+    program_ = loose_;
+    most_ = solve_program();
+  }
+  return *most_;
+}
+
 EdgeEfforts EdgeProgram::solve(double slack) {
-  if (slack >= 0 && off_.size() == 0) {
-    const EdgeEfforts loose = solve_steadily();
+  if (off_.size() == 0) {
+    const EdgeEfforts steady = solve_steadily();
     const auto edges = static_cast<Eigen::Index>(instants_.size());
-    measure_bends(loose.w.size() > 0 ? loose.w : Eigen::VectorXd::Constant(edges, loose.value));
+    measure_bends(steady.w.size() > 0 ? steady.w : Eigen::VectorXd::Constant(edges, steady.value));
   }
   tighten(slack);
   return solve_program();

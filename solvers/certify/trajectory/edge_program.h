@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,8 +40,10 @@ class EdgeProgram {
   EdgeProgram(const Problem& problem, const Eigen::MatrixXd& knots, int parts, int t_h);
   EdgeProgram(const Problem&&, const Eigen::MatrixXd&, int, int) = delete;
 
-  /// @param slack  of limits and rates, as a share of the limit's range; negative: the limits are
-  ///               not tightened at all
+  /// The largest wrench within limits that are not tightened.
+  const EdgeEfforts& most();
+
+  /// @param slack  of limits and rates, as a share of the limit's range
   EdgeEfforts solve(double slack);
 
  private:
@@ -59,6 +62,7 @@ class EdgeProgram {
   Zonotope tight_;
   /// m×(edges - 1), of each part: by how much efforts and rates differ from those of the spline.
   Eigen::MatrixXd off_, rate_off_;
+  std::optional<EdgeEfforts> most_;
   std::unique_ptr<TrajectorySolver> solver_;
 };
 

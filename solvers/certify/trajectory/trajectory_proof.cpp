@@ -23,9 +23,13 @@ namespace {
 
 using ProofClock = std::chrono::steady_clock;
 
-/// Parts are doubled while the proof loses more than this share.
+/// There are more parts while the proof loses more than this share.
 constexpr double kLossOfParts = 1e-4;
 constexpr int kMostParts = 200;
+/// The loss falls with the square of the number of parts, and a little slower.
+constexpr double kMoreThanNeeded = 1.1;
+/// The least growth of the number of parts.
+constexpr double kFewMore = 1.5;
 /// How often the value is bisected once there is a proof.
 constexpr int kRaises = 6;
 /// Shares of the limits' ranges for the enclosures, tried one after another.
@@ -112,18 +116,22 @@ class TrajectoryProver {
   void prove_wrench() {
     const int usual = task_.motion->impulse ? 50 : 25;
     if (task_.motion->impulse && claim_.t_h == 0) claim_.t_h = std::max(1, task_.motion->t_h);
-    for (int parts = how_.parts > 0 ? how_.parts : usual; parts <= kMostParts; parts *= 2) {
+    for (int parts = how_.parts > 0 ? how_.parts : usual;;) {
       EdgeProgram program(task_, claim_.knots, parts, claim_.t_h);
-      const EdgeEfforts most = program.solve(-1);
+      const EdgeEfforts& most = program.most();
       if (most.status != Status::kOptimal) {
         if (proof_.status == Status::kProven) return;
         refuse(most.status, most.reason.str(), most.t);
         return;
       }
-      if (prove_with(program, parts, most.value) &&
-          proof_.guaranteed >= most.value - kLossOfParts * std::abs(most.value)) {
-        return;
+      double growth = 2;
+      if (prove_with(program, parts, most.value)) {
+        const double loss = (most.value - proof_.guaranteed) / std::abs(most.value);
+        if (!(loss > kLossOfParts)) return;
+        growth = std::max(kFewMore, kMoreThanNeeded * std::sqrt(loss / kLossOfParts));
       }
+      if (parts == kMostParts) return;
+      parts = static_cast<int>(std::min(std::ceil(growth * parts), double{kMostParts}));
     }
   }
 

@@ -103,6 +103,7 @@ TEST(CertifyTrajectoryCommand, RejectsWhatDoesNotApply) {
         "certify planar/trajectory --measure ellipsoid", "certify mobile/trajectory",
         "certify planar/trajectory --theta-r 0,0,0", "certify planar/trajectory --theta-r none.csv",
         "certify uvms/valve_impulse --theta-r 0,0,0,0 --t-h 2 --certificate x",
+        "certify planar/trajectory --theta-r 0,0 --thruster-lag 1 --certificate x",
         "solve planar/force --proven"}) {
     const CommandResult result = run_maxwrench(words);
     EXPECT_EQ(result.exit_status, 2) << words << result.out;

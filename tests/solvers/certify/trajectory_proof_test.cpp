@@ -142,6 +142,21 @@ TEST(TrajectoryProof, SLOW_SolvesAProvenImpulse) {
   EXPECT_NE(proof.rejection.find("q3_elbow moves at 0.50"), std::string::npos) << proof.rejection;
 }
 
+/// The commands lead the thrust where the impulse rises, so a thruster that lags exerts less: none
+/// of what is proven without lag is out of reach, and the proof loses little of the value.
+TEST(TrajectoryProof, ProvesAnImpulseOfThrustersThatLag) {
+  Problem problem = load_problem("uvms/valve_impulse");
+  const Eigen::MatrixXd knots = shipped_knots("uvms_valve_impulse_spline_lag", problem);
+  const TrajectoryProof without = certify_trajectory(problem, knots);
+  problem.motion->thruster_lag = 0.1;
+  const TrajectoryProof proof = certify_trajectory(problem, knots);
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  const double between = proof.answer.trajectory.value_between_knots;
+  EXPECT_LE(proof.guaranteed, between);
+  EXPECT_GE(proof.guaranteed, between * (1 - 5e-4));
+  EXPECT_GE(without.guaranteed, proof.guaranteed);
+}
+
 /// Without effort rates the wrench beside the peak of an impulse could be any, and efforts between
 /// the edges would leave their limits by O(H). Limits of joints are a little wider, as the shipped
 /// impulse keeps them at its instants only.

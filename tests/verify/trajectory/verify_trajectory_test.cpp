@@ -48,6 +48,21 @@ const TrajectoryCertificate& fast_turn_proof() {
   return proof;
 }
 
+/// An impulse whose thrusters lag.
+const Problem& lagged_impulse() {
+  static const Problem problem = [] {
+    Problem lagged = held_impulse();
+    lagged.motion->thruster_lag = 0.1;
+    return lagged;
+  }();
+  return problem;
+}
+const TrajectoryCertificate& lagged_proof() {
+  static const TrajectoryCertificate proof =
+      certified(lagged_impulse(), shipped_knots("uvms_valve_impulse_spline_lag", lagged_impulse()));
+  return proof;
+}
+
 std::string rejection(const Problem& problem, const TrajectoryCertificate& proof) {
   return verify(problem, proof, 2).rejection;
 }
@@ -56,6 +71,7 @@ TEST(VerifyTrajectory, VerifiesWhatIsProven) {
   EXPECT_EQ(rejection(turn(), turn_proof()), "");
   EXPECT_EQ(rejection(held_impulse(), impulse_proof()), "");
   EXPECT_EQ(rejection(fast_turn(), fast_turn_proof()), "");
+  EXPECT_EQ(rejection(lagged_impulse(), lagged_proof()), "");
   const TrajectoryVerification one = verify(turn(), turn_proof(), 1);
   const TrajectoryVerification three = verify(turn(), turn_proof(), 3);
   EXPECT_EQ(one.slices, three.slices);
@@ -170,6 +186,7 @@ TEST(VerifyTrajectory, RejectsWeakerRobots) {
       [](Problem& p) { p.robot.joints[1].velocity_max *= 0.8; },
       [](Problem& p) { p.theta_r_max[1] = turn_proof().knots.col(1).maxCoeff() - 0.01; },
       [](Problem& p) { p.motion->T *= 0.9; },
+      [](Problem& p) { p.motion->thruster_lag = 10; },
   };
   for (std::size_t i = 0; i < all.size(); ++i) {
     Problem problem = turn();
@@ -179,6 +196,16 @@ TEST(VerifyTrajectory, RejectsWeakerRobots) {
     proof.digest = motion_digest(problem);
     EXPECT_NE(rejection(problem, proof), "") << i;
   }
+}
+
+/// The commands are at their limits where an impulse rises, so those of a larger lag are beyond.
+TEST(VerifyTrajectory, RejectsCommandsBeyondTheirLimits) {
+  Problem slower = lagged_impulse();
+  slower.motion->thruster_lag *= 1.2;
+  TrajectoryCertificate proof = lagged_proof();
+  EXPECT_EQ(rejection(slower, proof), "it is for another robot or task");
+  proof.digest = motion_digest(slower);
+  EXPECT_EQ(rejection(slower, proof).find("the command of "), 0U) << rejection(slower, proof);
 }
 
 /// Any byte that changes, and any end that is missing.
@@ -208,11 +235,15 @@ TEST(VerifyTrajectory, RejectsDamagedFiles) {
 
 /// The efforts between edges by the formulas of `EffortLaw`, in ordinary arithmetic and with the
 /// dynamics of `lib`: they balance the wrench, keep their limits, and change no faster than their
-/// rates, at 25 times as many instants as there are edges.
+/// rates, at 25 times as many instants as there are edges. So do the commands of thrusters that
+/// lag, on average between two of these instants.
 TEST(VerifyTrajectory, EffortsKeepTheirLimitsAtManyInstants) {
   const int fine = 25;
   const std::pair<const Problem&, const TrajectoryCertificate&> proofs[] = {
-      {turn(), turn_proof()}, {held_impulse(), impulse_proof()}, {fast_turn(), fast_turn_proof()}};
+      {turn(), turn_proof()},
+      {held_impulse(), impulse_proof()},
+      {fast_turn(), fast_turn_proof()},
+      {lagged_impulse(), lagged_proof()}};
   for (const auto& [problem, proof] : proofs) {
     MotionEvaluator motion(problem, make_dense_spline(*problem.motion, proof.parts * fine));
     std::vector<Instant> instants;
@@ -245,8 +276,12 @@ TEST(VerifyTrajectory, EffortsKeepTheirLimitsAtManyInstants) {
       EXPECT_GE((u - set.u_min).minCoeff(), -1e-9) << instants[i].t;
       EXPECT_LE((u - set.u_max).maxCoeff(), 1e-9) << instants[i].t;
       if (i > 0) {
-        const Eigen::VectorXd rate = (u - before).cwiseAbs() / (instants[i].t - instants[i - 1].t);
-        EXPECT_LE((rate - problem.robot.u_rate_max).maxCoeff(), 1e-6) << instants[i].t;
+        const Eigen::VectorXd rate = (u - before) / (instants[i].t - instants[i - 1].t);
+        EXPECT_LE((rate.cwiseAbs() - problem.robot.u_rate_max).maxCoeff(), 1e-6) << instants[i].t;
+        const Eigen::Index thrusters = 8;
+        const Eigen::VectorXd command = (u + before) / 2 + problem.motion->thruster_lag * rate;
+        EXPECT_GE((command - set.u_min).head(thrusters).minCoeff(), -1e-6) << instants[i].t;
+        EXPECT_LE((command - set.u_max).head(thrusters).maxCoeff(), 1e-6) << instants[i].t;
       }
       before = u;
     }
