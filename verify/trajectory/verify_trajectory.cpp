@@ -89,9 +89,15 @@ std::string reject_impulse(const Problem& problem, const TrajectoryCertificate& 
   return "";
 }
 
+/// Empty, or why the certificate does not claim what the task asks for.
+std::string reject_claim(const Problem& problem, const TrajectoryCertificate& proof) {
+  std::string reason = reject_sizes(problem, proof);
+  if (!reason.empty()) return reason;
+  return problem.motion->impulse ? reject_impulse(problem, proof) : reject_path(proof);
+}
+
 /// All edges of all intervals, on several threads. The earliest fault counts.
-MotionFault check_efforts(const EffortLaw& law, int intervals, int parts, int threads,
-                          long& slices) {
+MotionFault check_edges(const EffortLaw& law, int intervals, int parts, int threads, long& slices) {
   const int edges = parts + 1;
   const long all = long{intervals} * edges;
   std::atomic<long> next = 0, first_bad = all;
@@ -205,23 +211,30 @@ MotionFault check_motion(const TrajectoryModel& model) {
   return {};
 }
 
+MotionFault check_motion_and_clearance(const TrajectoryModel& model,
+                                       TrajectoryVerification& result) {
+  MotionFault fault = check_motion(model);
+  if (fault.reason.empty()) fault = check_clearance(model, result);
+  return fault;
+}
+
+MotionFault check_efforts(const TrajectoryModel& model, const TrajectoryCertificate& proof,
+                          int threads, TrajectoryVerification& result) {
+  std::string reason = reject_claim(model.problem(), proof);
+  if (!reason.empty()) return {std::move(reason)};
+  return check_edges(EffortLaw(model, proof), model.curve().intervals(), proof.parts, threads,
+                     result.slices);
+}
+
 TrajectoryVerification verify(const Problem& problem, const TrajectoryCertificate& proof,
                               int threads) {
   require_provable(problem);
   TrajectoryVerification result;
-  result.rejection = reject_sizes(problem, proof);
-  if (result.rejection.empty()) {
-    result.rejection =
-        problem.motion->impulse ? reject_impulse(problem, proof) : reject_path(proof);
-  }
+  result.rejection = reject_claim(problem, proof);
   if (!result.rejection.empty()) return result;
   const TrajectoryModel model(problem, proof.knots, proof.dependent);
-  const EffortLaw law(model, proof);
-  MotionFault fault = check_motion(model);
-  if (fault.reason.empty()) fault = check_clearance(model, result);
-  if (fault.reason.empty()) {
-    fault = check_efforts(law, model.curve().intervals(), proof.parts, threads, result.slices);
-  }
+  MotionFault fault = check_motion_and_clearance(model, result);
+  if (fault.reason.empty()) fault = check_efforts(model, proof, threads, result);
   result.rejection = fault.reason;
   result.t = fault.t;
   return result;

@@ -16,6 +16,17 @@ inline constexpr double kKnotTolerance = 1e-6;
 /// and that an impulse begins at rest and without acceleration.
 MotionFault check_motion(const TrajectoryModel& model);
 
+/// `check_motion`, and that no bodies collide. Sets the clearance of `result`.
+MotionFault check_motion_and_clearance(const TrajectoryModel& model,
+                                       TrajectoryVerification& result);
+
+/// Checks what a certificate claims about a motion with its knots and dependent joints. With
+/// `check_motion_and_clearance` this is all that `verify` checks. Counts the slices of `result`.
+///
+/// @throws std::invalid_argument as `narrow_pseudoinverse`.
+MotionFault check_efforts(const TrajectoryModel& model, const TrajectoryCertificate& proof,
+                          int threads, TrajectoryVerification& result);
+
 /// Checks that a certificate proves its claim about a task: the robot can exert the wrench or
 /// more at every instant, with efforts, effort rates, joints and joint speeds within their limits,
 /// and, if the certificate says so, without collision. The efforts are enclosed anew in interval

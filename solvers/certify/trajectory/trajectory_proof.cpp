@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <vector>
 
@@ -14,7 +15,6 @@
 #include "solvers/certify/trajectory/edge_program.h"
 #include "solvers/solve/method.h"
 #include "solvers/solve/scenario_alone.h"
-#include "verify/trajectory/motion_clearance.h"
 #include "verify/trajectory/provable.h"
 #include "verify/trajectory/verify_trajectory.h"
 
@@ -30,8 +30,8 @@ constexpr int kMostParts = 200;
 constexpr double kMoreThanNeeded = 1.1;
 /// The least growth of the number of parts.
 constexpr double kFewMore = 1.5;
-/// How often the value is bisected once there is a proof.
-constexpr int kRaises = 6;
+/// Once there is a proof, the value is bisected until no more than this share can be gained.
+constexpr double kWorthRaising = 1e-5;
 /// Shares of the limits' ranges for the enclosures, tried one after another.
 constexpr double kSlacks[] = {3e-6, 2e-5, 1e-4, 5e-4, 3e-3};
 
@@ -104,15 +104,19 @@ class TrajectoryProver {
       refuse(Status::kInvalidPosture, "the dependent joints do not reach the path", -1);
       return false;
     }
-    const TrajectoryModel model(task_, claim_.knots, claim_.dependent);
-    MotionFault fault = check_motion(model);
+    model_.emplace(task_, claim_.knots, claim_.dependent);
     TrajectoryVerification apart;
-    if (fault.reason.empty()) fault = check_clearance(model, apart);
-    if (!fault.reason.empty()) refuse(Status::kInvalidPosture, fault.reason, fault.t);
-    return fault.reason.empty();
+    const MotionFault fault = check_motion_and_clearance(*model_, apart);
+    if (!fault.reason.empty()) {
+      refuse(Status::kInvalidPosture, fault.reason, fault.t);
+      return false;
+    }
+    proof_.clearance = apart.clearance;
+    return true;
   }
 
-  /// With more and more parts, until more do not help.
+  /// With as many parts as the margins need; with more of them if the enclosures do not confirm
+  /// that.
   void prove_wrench() {
     const int usual = task_.motion->impulse ? 50 : 25;
     if (task_.motion->impulse && claim_.t_h == 0) claim_.t_h = std::max(1, task_.motion->t_h);
@@ -120,27 +124,31 @@ class TrajectoryProver {
       EdgeProgram program(task_, claim_.knots, parts, claim_.t_h);
       const EdgeEfforts& most = program.most();
       if (most.status != Status::kOptimal) {
-        if (proof_.status == Status::kProven) return;
         refuse(most.status, most.reason.str(), most.t);
         return;
       }
-      double growth = 2;
-      if (prove_with(program, parts, most.value)) {
-        const double loss = (most.value - proof_.guaranteed) / std::abs(most.value);
-        if (!(loss > kLossOfParts)) return;
-        growth = std::max(kFewMore, kMoreThanNeeded * std::sqrt(loss / kLossOfParts));
-      }
+      const double growth = growth_of_parts(most.value, program.solve(kSlacks[0]));
+      if ((growth == 1 || parts == kMostParts) && prove_with(program, parts, most.value)) return;
       if (parts == kMostParts) return;
-      parts = static_cast<int>(std::min(std::ceil(growth * parts), double{kMostParts}));
+      parts = static_cast<int>(
+          std::min(std::ceil(std::max(growth, kFewMore) * parts), double{kMostParts}));
     }
   }
 
-  /// Keeps the certificate with the largest value. Returns whether there is one with these parts.
+  /// By how much the number of parts should grow so that the margins cost at most `kLossOfParts`.
+  static double growth_of_parts(double most, const EdgeEfforts& efforts) {
+    if (efforts.status != Status::kOptimal) return 2;
+    const double loss = (most - efforts.value) / std::abs(most);
+    if (!(loss > kLossOfParts)) return 1;
+    return std::max(kFewMore, kMoreThanNeeded * std::sqrt(loss / kLossOfParts));
+  }
+
+  /// Whether there is a certificate with these parts.
   bool prove_with(EdgeProgram& program, int parts, double most) {
     for (const double slack : kSlacks) {
       const EdgeEfforts efforts = program.solve(slack);
       if (efforts.status != Status::kOptimal) {
-        if (proof_.status != Status::kProven && proof_.reason.empty()) {
+        if (proof_.reason.empty()) {
           refuse(Status::kNumericalError, "no efforts have the margin that a proof needs", -1);
         }
         break;
@@ -149,15 +157,12 @@ class TrajectoryProver {
       claim_.y = efforts.y;
       claim_.w = efforts.w;
       claim_.value = efforts.value;
-      const TrajectoryVerification check = verify(task_, claim_, threads_);
-      if (check.verified()) {
-        keep(check);
+      const MotionFault fault = keep_if_proven();
+      if (fault.reason.empty()) {
         if (claim_.w.size() == 0) raise(most);
         return true;
       }
-      if (proof_.status != Status::kProven) {
-        refuse(Status::kNumericalError, "not enclosed: " + check.rejection, check.t);
-      }
+      refuse(Status::kNumericalError, "not enclosed: " + fault.reason, fault.t);
     }
     return false;
   }
@@ -166,28 +171,30 @@ class TrajectoryProver {
   /// found for, unless the certificate also holds the wrench at the edges.
   void raise(double most) {
     double low = claim_.value;
-    for (int i = 0; i < kRaises; ++i) {
+    while (most - low > kWorthRaising * (1 + std::abs(most))) {
       claim_.value = (low + most) / 2;
-      const TrajectoryVerification check = verify(task_, claim_, threads_);
-      (check.verified() ? low : most) = claim_.value;
-      if (check.verified()) keep(check);
+      (keep_if_proven().reason.empty() ? low : most) = claim_.value;
     }
   }
 
-  void keep(const TrajectoryVerification& check) {
-    if (proof_.status == Status::kProven && !(claim_.value > proof_.guaranteed)) return;
+  /// By all checks of `verify`: the motion has passed its own.
+  MotionFault keep_if_proven() {
+    TrajectoryVerification check;
+    MotionFault fault = check_efforts(*model_, claim_, threads_, check);
+    if (!fault.reason.empty()) return fault;
     proof_.conclude(Status::kProven);
     proof_.t = std::numeric_limits<double>::quiet_NaN();
     proof_.guaranteed = claim_.value;
     proof_.parts = claim_.parts;
     proof_.slices = check.slices;
-    proof_.clearance = check.clearance;
     best_ = claim_;
+    return fault;
   }
 
   Problem task_;
   const TrajectoryProofOptions& how_;
   const int threads_;
+  std::optional<TrajectoryModel> model_;
   TrajectoryCertificate claim_, best_;
   TrajectoryProof proof_;
 };
