@@ -59,6 +59,8 @@ void require_provable(const Problem& problem) {
       {!task.path.as_screw(),
        {"a path through given poses", "one that rotates about an axis and translates"}},
       {task.transfer, {"a transfer", "a trajectory or an impulse"}},
+      {!(task.thruster_lag >= 0 && task.thruster_lag < kInfinity),
+       {"motion.thruster_lag that is no time constant", "0 or more"}},
       {task.has_factor(), {"a payload or a table of wrenches", "one wrench along a path"}},
       {!moves, {"k = 1", "k >= 2"}},
       {open_start, {"start.kind = \"zero\"", "a start in balance"}},

@@ -97,8 +97,11 @@ std::string reject_claim(const Problem& problem, const TrajectoryCertificate& pr
 }
 
 /// All edges of all intervals, on several threads. The earliest fault counts.
-MotionFault check_edges(const EffortLaw& law, int intervals, int parts, int threads, long& slices) {
-  const int edges = parts + 1;
+MotionFault check_edges(const TrajectoryModel& model, const TrajectoryCertificate& proof,
+                        int threads, TrajectoryVerification& result) {
+  const EffortLaw law(model, proof);
+  const int intervals = model.curve().intervals();
+  const int edges = proof.parts + 1;
   const long all = long{intervals} * edges;
   std::atomic<long> next = 0, first_bad = all;
   std::mutex mutex;
@@ -115,7 +118,7 @@ MotionFault check_edges(const EffortLaw& law, int intervals, int parts, int thre
       fault = std::move(found);
     }
     const std::lock_guard<std::mutex> guard(mutex);
-    slices += own;
+    result.slices += own;
   };
   std::vector<std::thread> others;
   for (int i = 1; i < threads; ++i) others.emplace_back(work);
@@ -222,8 +225,7 @@ MotionFault check_efforts(const TrajectoryModel& model, const TrajectoryCertific
                           int threads, TrajectoryVerification& result) {
   std::string reason = reject_claim(model.problem(), proof);
   if (!reason.empty()) return {std::move(reason)};
-  return check_edges(EffortLaw(model, proof), model.curve().intervals(), proof.parts, threads,
-                     result.slices);
+  return check_edges(model, proof, threads, result);
 }
 
 TrajectoryVerification verify(const Problem& problem, const TrajectoryCertificate& proof,
@@ -234,7 +236,7 @@ TrajectoryVerification verify(const Problem& problem, const TrajectoryCertificat
   if (!result.rejection.empty()) return result;
   const TrajectoryModel model(problem, proof.knots, proof.dependent);
   MotionFault fault = check_motion_and_clearance(model, result);
-  if (fault.reason.empty()) fault = check_efforts(model, proof, threads, result);
+  if (fault.reason.empty()) fault = check_edges(model, proof, threads, result);
   result.rejection = fault.reason;
   result.t = fault.t;
   return result;

@@ -185,6 +185,10 @@ EdgeEfforts EdgeProgram::read(const TrajectorySolution& solution) const {
   efforts.y.resize(solution.u.rows(), edges);
   efforts.y.rightCols(blocks) = solution.u;
   if (blocks < edges) efforts.y.col(0) = solution.u.col(0);
+  const Zonotope& set = problem_.robot.actuation;
+  for (Eigen::Index i = 0; i < efforts.y.rows(); ++i) {  // exactly, without a column in B
+    if (set.u_min[i] == set.u_max[i]) efforts.y.row(i).setConstant(set.u_min[i]);
+  }
   if (!problem_.motion->impulse && exerts_equally(solution)) return efforts;
   efforts.w.resize(edges);
   for (Eigen::Index i = 0; i < blocks; ++i) {

@@ -26,11 +26,11 @@ using ProofClock = std::chrono::steady_clock;
 /// There are more parts while the proof loses more than this share.
 constexpr double kLossOfParts = 1e-4;
 constexpr int kMostParts = 200;
-/// The loss falls with the square of the number of parts, and a little slower.
+/// The loss falls a little slower than expected.
 constexpr double kMoreThanNeeded = 1.1;
 /// The least growth of the number of parts.
 constexpr double kFewMore = 1.5;
-/// Once there is a proof, the value is bisected until no more than this share can be gained.
+/// Once there is a proof, the value v is bisected until at most this times 1 + |v| can be gained.
 constexpr double kWorthRaising = 1e-5;
 /// Shares of the limits' ranges for the enclosures, tried one after another.
 constexpr double kSlacks[] = {3e-6, 2e-5, 1e-4, 5e-4, 3e-3};
@@ -95,7 +95,7 @@ class TrajectoryProver {
 
  private:
   void refuse(Status status, const std::string& reason, double t) {
-    if (t >= 0) proof_.t = t;
+    proof_.t = t >= 0 ? t : std::numeric_limits<double>::quiet_NaN();
     proof_.conclude(status, t >= 0 ? fmt::format("t = {:.5g} s: {}", t, reason) : reason);
   }
 
@@ -115,54 +115,62 @@ class TrajectoryProver {
     return true;
   }
 
-  /// With as many parts as the margins need; with more of them if the enclosures do not confirm
-  /// that.
+  /// With as many parts as the margins need; with fewer of them if the proof fails with those.
   void prove_wrench() {
     const int usual = task_.motion->impulse ? 50 : 25;
     if (task_.motion->impulse && claim_.t_h == 0) claim_.t_h = std::max(1, task_.motion->t_h);
+    std::vector<int> fewer;  // with efforts that were not tried
     for (int parts = how_.parts > 0 ? how_.parts : usual;;) {
       EdgeProgram program(task_, claim_.knots, parts, claim_.t_h);
-      const EdgeEfforts& most = program.most();
-      if (most.status != Status::kOptimal) {
-        refuse(most.status, most.reason.str(), most.t);
-        return;
+      const EdgeEfforts efforts = program.solve(kSlacks[0]);
+      const double growth = growth_of_parts(program.most(), efforts);
+      if (growth == 1 || parts == kMostParts) {
+        if (prove_with(program, parts, efforts)) return;
+      } else if (efforts.status == Status::kOptimal) {
+        fewer.push_back(parts);
       }
-      const double growth = growth_of_parts(most.value, program.solve(kSlacks[0]));
-      if ((growth == 1 || parts == kMostParts) && prove_with(program, parts, most.value)) return;
-      if (parts == kMostParts) return;
+      if (program.most().status == Status::kInfeasible || parts == kMostParts) break;
       parts = static_cast<int>(
           std::min(std::ceil(std::max(growth, kFewMore) * parts), double{kMostParts}));
     }
+    for (; !fewer.empty(); fewer.pop_back()) {
+      EdgeProgram program(task_, claim_.knots, fewer.back(), claim_.t_h);
+      if (prove_with(program, fewer.back(), program.solve(kSlacks[0]))) return;
+    }
   }
 
-  /// By how much the number of parts should grow so that the margins cost at most `kLossOfParts`.
-  static double growth_of_parts(double most, const EdgeEfforts& efforts) {
-    if (efforts.status != Status::kOptimal) return 2;
-    const double loss = (most - efforts.value) / std::abs(most);
+  /// By how much the number of parts should grow so that the margins cost at most `kLossOfParts`:
+  /// they fall with its square, those of commands in proportion to it.
+  double growth_of_parts(const EdgeEfforts& most, const EdgeEfforts& efforts) const {
+    if (most.status != Status::kOptimal || efforts.status != Status::kOptimal) return 2;
+    const double loss = (most.value - efforts.value) / std::abs(most.value);
     if (!(loss > kLossOfParts)) return 1;
-    return std::max(kFewMore, kMoreThanNeeded * std::sqrt(loss / kLossOfParts));
+    const double ratio = loss / kLossOfParts;
+    return std::max(kFewMore,
+                    kMoreThanNeeded * (task_.motion->thruster_lag > 0 ? ratio : std::sqrt(ratio)));
   }
 
-  /// Whether there is a certificate with these parts.
-  bool prove_with(EdgeProgram& program, int parts, double most) {
+  /// Whether there is a certificate with these parts. `efforts`: those of the first slack.
+  bool prove_with(EdgeProgram& program, int parts, EdgeEfforts efforts) {
+    const EdgeEfforts& most = program.most();
+    if (most.status != Status::kOptimal) refuse(most.status, most.reason.str(), most.t);
     for (const double slack : kSlacks) {
-      const EdgeEfforts efforts = program.solve(slack);
-      if (efforts.status != Status::kOptimal) {
-        if (proof_.reason.empty()) {
-          refuse(Status::kNumericalError, "no efforts have the margin that a proof needs", -1);
-        }
-        break;
-      }
+      if (slack != kSlacks[0]) efforts = program.solve(slack);
+      if (efforts.status == Status::kInfeasible) break;
+      if (efforts.status != Status::kOptimal) continue;
       claim_.parts = parts;
       claim_.y = efforts.y;
       claim_.w = efforts.w;
       claim_.value = efforts.value;
       const MotionFault fault = keep_if_proven();
       if (fault.reason.empty()) {
-        if (claim_.w.size() == 0) raise(most);
+        if (claim_.w.size() == 0 && most.status == Status::kOptimal) raise(most.value);
         return true;
       }
       refuse(Status::kNumericalError, "not enclosed: " + fault.reason, fault.t);
+    }
+    if (proof_.reason.empty()) {
+      refuse(Status::kNumericalError, "no efforts have the margin that a proof needs", -1);
     }
     return false;
   }

@@ -135,6 +135,16 @@ TEST(TrajectoryListProof, FactorsAreThoseOfTheStatedWrenches) {
   EXPECT_NEAR(2 * twice.guaranteed, once.guaranteed, 1e-9 * once.guaranteed);
 }
 
+/// A dead thruster exerts nothing, exactly, though a solver of programs with a lag rounds.
+TEST(TrajectoryListProof, ProvesThrustersThatLag) {
+  Problem problem = load_problem(turn_file());
+  problem.motion->thruster_lag = 0.1;
+  const TrajectoryProof proof = certify_trajectory(problem, default_knots(problem));
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  EXPECT_LE(proof.guaranteed, list_proof().proof.guaranteed);
+  EXPECT_NEAR(proof.guaranteed, list_proof().proof.guaranteed, 5e-3);
+}
+
 /// One wheel or another may be dead. All scenarios are of one motion of the dependent joints.
 TEST(TrajectoryListProof, ProvesDependentJoints) {
   const TemporaryFolder folder;

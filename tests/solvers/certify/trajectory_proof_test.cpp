@@ -157,6 +157,16 @@ TEST(TrajectoryProof, ProvesAnImpulseOfThrustersThatLag) {
   EXPECT_GE(without.guaranteed, proof.guaranteed);
 }
 
+/// For one of the numbers of parts, the interior point method has no verdict. The load of a posture
+/// that is held hardly changes, so the lag costs little.
+TEST(TrajectoryProof, DoesNotNeedEachProgramOnItsWay) {
+  Problem problem = load_problem("uvms/valve_trajectory");
+  problem.motion->thruster_lag = 1;
+  const TrajectoryProof proof = certify_trajectory(problem, default_knots(problem));
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  EXPECT_NEAR(proof.guaranteed, 34.3, 34.3 * 5e-4);
+}
+
 /// What `reproduce` ships as proven is proven, nearly as much as between its knots.
 TEST(TrajectoryProof, ProvesTheTrajectoriesThatAreShippedAsProven) {
   for (const std::string name : {"valve_trajectory", "valve_impulse", "lift_impulse"}) {
@@ -307,6 +317,11 @@ TEST(TrajectoryProof, RejectsOtherTasksAndChoices) {
   EXPECT_THROW(certify_trajectory(problem, knots.topRows(3)), std::invalid_argument);
   const Problem fixed = load_problem("planar/force");
   EXPECT_THROW(certify_trajectory(fixed, fixed.theta_r_default), std::invalid_argument);
+  for (const double lag : {-0.1, std::nan(""), kInfinity}) {
+    Problem lagged = problem;
+    lagged.motion->thruster_lag = lag;
+    EXPECT_THROW(certify_trajectory(lagged, knots), std::invalid_argument) << lag;
+  }
 }
 
 /// The path turns about x, and the planar vehicle cannot.
