@@ -122,14 +122,19 @@ class TrajectoryProver {
     std::vector<int> fewer;  // with efforts that were not tried
     for (int parts = how_.parts > 0 ? how_.parts : usual;;) {
       EdgeProgram program(task_, claim_.knots, parts, claim_.t_h);
+      const EdgeEfforts& most = program.most();
+      if (most.status == Status::kInfeasible) {
+        refuse(most.status, most.reason.str(), most.t);
+        break;
+      }
       const EdgeEfforts efforts = program.solve(kSlacks[0]);
-      const double growth = growth_of_parts(program.most(), efforts);
+      const double growth = growth_of_parts(most, efforts);
       if (growth == 1 || parts == kMostParts) {
         if (prove_with(program, parts, efforts)) return;
       } else if (efforts.status == Status::kOptimal) {
         fewer.push_back(parts);
       }
-      if (program.most().status == Status::kInfeasible || parts == kMostParts) break;
+      if (parts == kMostParts) break;
       parts = static_cast<int>(
           std::min(std::ceil(std::max(growth, kFewMore) * parts), double{kMostParts}));
     }
