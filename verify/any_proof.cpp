@@ -158,14 +158,21 @@ std::unique_ptr<ValueProof> make_any_proof(const Problem& problem, const FormMod
 std::unique_ptr<ValueProof> make_value_proof(const Problem& problem, const FormModel& model,
                                              const Equations& equations, const std::string& measure,
                                              Wrench wrench) {
-  // The other bounds know no force of a second contact.
   if (problem.contact_columns() > 0) {
-    if (wrench == Wrench::kPure && measure == "linf_polytope" && problem.scenarios.empty()) {
-      return make_braced_proof(problem, model, equations);
+    if (wrench != Wrench::kPure || measure == "ellipsoid" || !problem.scenarios.empty()) {
+      throw std::invalid_argument(problem.name +
+                                  ": got forces of a second contact, expected linf_polytope or "
+                                  "l2_polytope and a single wrench, pure");
     }
-    throw std::invalid_argument(problem.name +
-                                ": got forces of a second contact, expected linf_polytope and a "
-                                "single wrench, pure");
+    if (model.coordinates().has_shares()) {
+      return make_pure_proof(problem, model, equations, measure);
+    }
+    if (measure != "linf_polytope" || !forces_follow_from_base(problem)) {
+      throw std::invalid_argument(problem.name +
+                                  ": got forces of a second contact that the base does not "
+                                  "determine, expected coordinates for them");
+    }
+    return make_braced_proof(problem, model, equations);
   }
   if (!problem.scenarios.empty()) {
     if (wrench == Wrench::kPure && measure == "linf_polytope") {
@@ -175,7 +182,11 @@ std::unique_ptr<ValueProof> make_value_proof(const Problem& problem, const FormM
                                 ": got a list of scenarios, expected linf_polytope and pure");
   }
   if (wrench == Wrench::kPure) return make_pure_proof(problem, model, equations, measure);
-  if (measure == "linf_polytope") return make_any_proof(problem, model);
+  if (measure == "linf_polytope") {
+    if (problem.dependent.empty()) return make_any_proof(problem, model);
+    return problem.W_any.cols() == 1 ? make_pure_proof(problem, model, equations, measure)
+                                     : make_free_proof(problem, model, equations);
+  }
   throw std::invalid_argument("wrench: got 'any', expected pure with measure " + measure);
 }
 

@@ -31,7 +31,7 @@ void require_free(const Problem& problem, const std::array<FormVector, 2>& twist
 /// First moment of all that a link of the chain does not carry, about the link's origin and in its
 /// axes. `before`: the same for its parent.
 FormVector FormModel::inboard(std::size_t link, const FormVector& before) const {
-  const Place& place = places_[link - 1];
+  const FormPose& place = places_[link - 1];
   const Wide rest = carried_[0] - carried_[link];
   const FormVector& of_parent = moment_[static_cast<std::size_t>(parent(link))];
   return transposed(place.R) * (before + of_parent - Form(shape_, rest) * place.p);

@@ -123,6 +123,29 @@ Narrow BoxForms::at_point(const FormShape& shape, const FormRow& row, const Eige
   return sum;
 }
 
+void set_products(const FormShape& shape, const Eigen::VectorXd& q, std::vector<double>& terms) {
+  terms.assign(1, 1.0);
+  for (std::size_t i = 0; i < shape.terms.size(); ++i) {
+    const double x = q[shape.coordinates[i]];
+    const bool turns = shape.terms[i] == 3;
+    std::vector<double> more;
+    for (const double term : terms) {
+      more.push_back(term);
+      more.push_back(term * (turns ? std::cos(x) : x));
+      if (turns) more.push_back(term * std::sin(x));
+    }
+    terms = std::move(more);
+  }
+}
+
+double value_near(const FormRow& row, const std::vector<double>& terms) {
+  double sum = 0;
+  for (std::size_t k = 0; k < row.index.size(); ++k) {
+    sum += row.coefficient[k].low * terms[static_cast<std::size_t>(row.index[k])];
+  }
+  return sum;
+}
+
 void add_to(std::vector<Narrow>& sum, const FormRow& row, const Narrow& factor) {
   for (std::size_t k = 0; k < row.index.size(); ++k) {
     Narrow& to = sum[static_cast<std::size_t>(row.index[k])];

@@ -50,4 +50,9 @@ class BoxForms {
 /// sum += factor * row
 void add_to(std::vector<Narrow>& sum, const FormRow& row, const Narrow& factor);
 
+/// Computes the products of terms at q, one for each coefficient, in ordinary arithmetic.
+void set_products(const FormShape& shape, const Eigen::VectorXd& q, std::vector<double>& terms);
+/// A number near the value of a row, from the products of terms.
+double value_near(const FormRow& row, const std::vector<double>& terms);
+
 }  // namespace maxwrench

@@ -18,16 +18,6 @@ struct BracedForms {
   double ceiling = kInfinity;
 };
 
-/// A row in the variables of the second arm alone, which come first.
-FormRow on_the_arm(const Form& form, const FormModel& model, int repeat) {
-  FormRow row(form, model.far());
-  for (int& index : row.index) {
-    if (index % repeat != 0) throw std::logic_error("a lever depends on other variables");
-    index /= repeat;
-  }
-  return row;
-}
-
 /// The sum over thrusters of |K_i,k| max |u_k|.
 Wide most_thrust(const Problem& problem, const FormModel& model, const FormVector& lever,
                  Eigen::Index row) {
@@ -165,10 +155,12 @@ std::unique_ptr<ValueProof> make_braced_proof(const Problem& problem, const Form
   forms.tau = to_rows(rows.tau, model.far());
   forms.a = to_rows(rows.a, model.far());
   forms.arm = std::make_unique<FormShape>(model.shape().stretch(0, count));
-  forms.repeat = model.shape().size / forms.arm->size;
+  forms.repeat = repeat_after(model.shape(), count);
   for (const FormVector& row : rows.levers) {
     std::vector<FormRow> three;
-    for (const Form& form : row) three.push_back(on_the_arm(form, model, forms.repeat));
+    for (const Form& form : row) {
+      three.push_back(on_stretch(FormRow(form, model.far()), model.shape(), 0, count));
+    }
     forms.levers.push_back(std::move(three));
   }
   forms.ceiling = braced_ceiling(problem, model, rows);

@@ -19,22 +19,6 @@ double beyond(const std::array<Narrow, 3>& x, const Eigen::Vector3d& half_sizes,
   return Narrow::above((most <= 0 ? most : root_above(square.high)) - reach);
 }
 
-/// Computes the products of terms at q, one for each coefficient.
-void set_products(const FormShape& shape, const Eigen::VectorXd& q, std::vector<double>& terms) {
-  terms.assign(1, 1.0);
-  for (std::size_t i = 0; i < shape.terms.size(); ++i) {
-    const double x = q[shape.coordinates[i]];
-    const bool turns = shape.terms[i] == 3;
-    std::vector<double> more;
-    for (const double term : terms) {
-      more.push_back(term);
-      more.push_back(term * (turns ? std::cos(x) : x));
-      if (turns) more.push_back(term * std::sin(x));
-    }
-    terms = std::move(more);
-  }
-}
-
 bool is_thin(const InnerBody& core) { return (core.half_sizes.array() > 0).count() <= 1; }
 
 /// The corners of a box and the points midway between them. For a segment, the points at its
@@ -205,9 +189,9 @@ std::vector<Eigen::Vector3d> CollisionProof::choose_points(const Movers& movers)
   Pose<double> pose;
   for (int i = 0; i < 3; ++i) {
     const auto row = static_cast<std::size_t>(i);
-    pose.p[i] = at_centre(movers.points[0][row]);
+    pose.p[i] = value_near(movers.points[0][row], terms_);
     for (int j = 0; j < 3; ++j) {
-      pose.R(i, j) = at_centre(movers.points[static_cast<std::size_t>(j + 1)][row]);
+      pose.R(i, j) = value_near(movers.points[static_cast<std::size_t>(j + 1)][row], terms_);
     }
   }
   std::vector<Eigen::Vector3d> placed;
@@ -280,20 +264,12 @@ bool CollisionProof::is_near_hull(const Movers& movers, const std::array<Narrow,
   return is_near(mean_);
 }
 
-double CollisionProof::at_centre(const FormRow& row) const {
-  double sum = 0;
-  for (std::size_t k = 0; k < row.index.size(); ++k) {
-    sum += row.coefficient[k].low * terms_[static_cast<std::size_t>(row.index[k])];
-  }
-  return sum;
-}
-
 /// Whether the point is close at the centre of the box, without an enclosure. Only then a proof is
 /// attempted.
 bool CollisionProof::may_be_close(const Movers& movers, const std::array<FormRow, 3>& point) const {
   std::array<Narrow, 3> x;
   for (std::size_t i = 0; i < 3; ++i) {
-    x[i] = at_centre(point[i]);
+    x[i] = value_near(point[i], terms_);
   }
   return beyond(x, movers.half_sizes, movers.reach) < 0;
 }

@@ -43,7 +43,6 @@ class CollisionProof {
   std::vector<Eigen::Vector3d> choose_points(const Movers& movers) const;
   bool stays_close(const Movers& movers, const Eigen::Vector3d& x);
   bool is_near_hull(const Movers& movers, const std::array<Narrow, 3>& x);
-  double at_centre(const FormRow& row) const;
   Movers movers(const InnerBody& core, const InnerBody& other, double reach) const;
   bool set_box(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const Movers& movers);
   bool is_close(const Movers& movers, const std::array<FormRow, 3>& point);

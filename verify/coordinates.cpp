@@ -15,9 +15,7 @@ constexpr double kUpright = 1e-15;
 void throw_unless_supported(bool supports, const Problem& problem) {
   if (supports) return;
   throw std::invalid_argument(problem.name +
-                              ": expected a static task in which a second contact, if there is "
-                              "one, exerts nothing or any force on a base with six axes, and "
-                              "joints that move the end effector");
+                              ": expected a static task, and joints that move the end effector");
 }
 
 /// A joint with a gear is taken to rest, as its leader does.
@@ -72,11 +70,11 @@ int joint_about_yaw(const Problem& problem) {
   return joint.type == JointType::kRevolute && upright ? first : -1;
 }
 
-PostureCoordinates::PostureCoordinates(const Problem& problem, int without)
-    : of_joint(problem.robot.joints.size(), -1), chain(joints_between(problem)), resting(without) {
-  throw_unless_supported(
-      !problem.motion && (problem.contact_columns() == 0 || forces_follow_from_base(problem)),
-      problem);
+PostureCoordinates::PostureCoordinates(const Problem& problem, const CoordinateChoice& choice)
+    : of_joint(problem.robot.joints.size(), -1),
+      chain(joints_between(problem)),
+      resting(choice.without) {
+  throw_unless_supported(!problem.motion, problem);
   const Robot& robot = problem.robot;
   const int own = problem.redundancy(), given = static_cast<int>(problem.redundant.size());
   const auto add_joint = [&](int joint, int coordinate) {
@@ -111,6 +109,10 @@ PostureCoordinates::PostureCoordinates(const Problem& problem, int without)
   regrasp = count();
   const bool around = problem.contact && problem.contact->surface == Surface::kCircle;
   while (at < own) variables.push_back({around, at++, 0, 0});
+  shares = count();
+  for (int k = 0; choice.contact_shares && k < problem.contact_columns(); ++k) {
+    variables.push_back({false, next++, 0, 1});
+  }
   throw_unless_supported(count() + (resting < 0 ? 0 : 1) == next, problem);
   throw_on_moving_gears(problem, of_joint);
   for (Variable& variable : variables) {

@@ -15,12 +15,6 @@ namespace {
 /// its terms' magnitudes: about ten factors, each with a few rounding errors.
 constexpr long double kRoundedData = 64 * std::numeric_limits<double>::epsilon();
 
-/// A pose as forms.
-struct FormPose {
-  FormMatrix R;
-  FormVector p;
-};
-
 std::vector<Form> base_rows(const FormPose& pose, const Robot& robot) {
   std::vector<Form> rows;
   for (const FormVector& column : transposed(pose.R)) {
@@ -50,23 +44,6 @@ FormPose seen(const FormModel& model, int a, const FormPose& pose, int b) {
   FormMatrix columns = transposed(pose.R);
   for (FormVector& column : columns) column = model.seen(a, column, b, false);
   return {transposed(columns), model.seen(a, pose.p, b)};
-}
-
-/// F(s_2) of `contact_pose`.
-FormPose contact_frame(const Contact& contact, const FormModel& model) {
-  FormPose pose = constant_pose(model, contact.frame);
-  const int variable = model.coordinates().regrasp;
-  if (contact.surface == Surface::kCircle) {
-    pose.R = pose.R * model.turn(1, variable);
-    const Form radius(model.shape(), static_cast<long double>(contact.radius));
-    pose.p = pose.p - radius * transposed(pose.R)[2];
-    return pose;
-  }
-  const FormMatrix columns = transposed(pose.R);
-  for (int i = 0; i < contact.coordinates(); ++i) {
-    pose.p = pose.p + model.sliding(variable + i) * columns[static_cast<std::size_t>(i)];
-  }
-  return pose;
 }
 
 std::vector<Form> opposite(std::vector<Form> rows) {
@@ -115,7 +92,7 @@ void Equations::add_contact(const Problem& problem, const FormModel& model) {
   const EndEffector& second = end_effector(contact.end_effector);
   const FormPose touching = seen(model, second.link, constant_pose(model, second.placement), 0);
   const EndEffector& tip = end_effector(problem.end_effector);
-  FormPose touched = contact_frame(contact, model);
+  FormPose touched = model.contact_frame();
   FormMatrix columns = transposed(touched.R);
   for (FormVector& column : columns) column = model.into_pose(column, false);
   const FormMatrix R = model.matrix(tip.placement.R);
@@ -123,7 +100,7 @@ void Equations::add_contact(const Problem& problem, const FormModel& model) {
              R * model.into_pose(touched.p, true) + model.constant(tip.placement.p)};
   touched = seen(model, tip.link, touched, 0);
   add_side(model, 0, at.yaw, contact_rows(touching, contact));
-  add_side(model, at.first, at.count(), opposite(contact_rows(touched, contact)));
+  add_side(model, at.first, at.shares, opposite(contact_rows(touched, contact)));
   count_ += static_cast<int>(sides_.back().rows.size());
 }
 
@@ -131,19 +108,11 @@ void Equations::add_contact(const Problem& problem, const FormModel& model) {
 /// stretch.
 void Equations::add_side(const FormModel& model, int from, int to, const std::vector<Form>& rows) {
   const FormShape& all = model.shape();
-  Side side{std::make_unique<FormShape>(all.stretch(from, to)), 1, count_, {}};
-  for (std::size_t i = static_cast<std::size_t>(to); i < all.terms.size(); ++i) {
-    side.repeat *= all.terms[i];
-  }
+  Side side{std::make_unique<FormShape>(all.stretch(from, to)), repeat_after(all, to), count_, {}};
   for (const Form& row : rows) {
     const long double off = kRoundedData * row.magnitude(model.far());
-    side.rows.emplace_back(row + Form(all, Wide(-off, off)), model.far());
-    for (int& index : side.rows.back().index) {
-      if (index % side.repeat != 0 || index / side.repeat >= side.shape->size) {
-        throw std::logic_error("an equation depends on other variables");
-      }
-      index /= side.repeat;
-    }
+    const FormRow rounded(row + Form(all, Wide(-off, off)), model.far());
+    side.rows.push_back(on_stretch(rounded, all, from, to));
   }
   sides_.push_back(std::move(side));
 }

@@ -149,4 +149,21 @@ FormRow::FormRow(const Form& form, const std::vector<double>& far) {
   coefficient.push_back(narrow(constant));
 }
 
+FormRow on_stretch(FormRow row, const FormShape& shape, int from, int to) {
+  const int repeat = repeat_after(shape, to), size = repeat_after(shape, from) / repeat;
+  for (int& index : row.index) {
+    if (index % repeat != 0 || index / repeat >= size) {
+      throw std::logic_error("a row depends on other variables");
+    }
+    index /= repeat;
+  }
+  return row;
+}
+
+int repeat_after(const FormShape& shape, int to) {
+  int repeat = 1;
+  for (auto i = static_cast<std::size_t>(to); i < shape.terms.size(); ++i) repeat *= shape.terms[i];
+  return repeat;
+}
+
 }  // namespace maxwrench

@@ -78,4 +78,12 @@ struct FormRow {
   FormRow(const Form& form, const std::vector<double>& far);
 };
 
+/// The same row on the variables `from` to `to` - 1 of a shape alone, `FormShape::stretch`. On the
+/// grid of all variables, point v is point (v / repeat) mod size of the stretch; `repeat_after`.
+/// Throws std::logic_error if the row depends on other variables.
+FormRow on_stretch(FormRow row, const FormShape& shape, int from, int to);
+
+/// The number of products of the terms of all variables from `to` on.
+int repeat_after(const FormShape& shape, int to);
+
 }  // namespace maxwrench

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
+#include "verify/contact_limits.h"
 #include "verify/equations.h"
 #include "verify/gain.h"
 #include "verify/list_value.h"
@@ -75,13 +76,14 @@ bool base_gets_there(const Problem& problem, const FormModel& model, const Eigen
   return p.norm() <= kIncumbentTolerance && tilt <= kIncumbentTolerance;
 }
 
-/// tau_d + J'h at x.
-std::vector<Narrow> load(const FormModel& model, const Eigen::VectorXd& x, const Vector6d& h) {
-  const std::vector<Form> tau_d = model.tau_d(), exerted = model.exerted(h);
+/// The sum of some rows at x.
+std::vector<Narrow> load(const FormModel& model, const Eigen::VectorXd& x,
+                         const std::vector<std::vector<Form>>& parts) {
   std::vector<Narrow> sum;
-  for (std::size_t i = 0; i < tau_d.size(); ++i) {
-    sum.push_back(
-        BoxForms::at_point(model.shape(), FormRow(tau_d[i] + exerted[i], model.far()), x));
+  for (std::size_t i = 0; i < parts.front().size(); ++i) {
+    Form row(model.shape());
+    for (const std::vector<Form>& part : parts) row += part[i];
+    sum.push_back(BoxForms::at_point(model.shape(), FormRow(row, model.far()), x));
   }
   return sum;
 }
@@ -107,7 +109,7 @@ Wide square_of_effort(const Zonotope& set, const std::vector<Narrow>& tau) {
 std::string reject_ellipsoid(const Problem& problem, const FormModel& model,
                              const ProofCertificate& proof, const std::vector<Narrow>& tau) {
   const Zonotope& set = problem.robot.actuation;
-  const std::vector<Narrow> tau_d = load(model, proof.x, Vector6d::Zero());
+  const std::vector<Narrow> tau_d = load(model, proof.x, {model.tau_d()});
   if (!(square_of_effort(set, tau_d).low <= 1)) return "its posture has no value";
   return square_of_effort(set, tau).low <= 1 + 4 * kIncumbentTolerance
              ? ""
@@ -138,6 +140,17 @@ std::vector<Narrow> braced_load(const Problem& problem, const FormModel& model,
   return sum;
 }
 
+/// Empty, or why the shares of the posture are no forces of the second contact.
+std::string reject_contact_forces(const Problem& problem, const ProofCertificate& proof,
+                                  const Eigen::VectorXd& low, const Eigen::VectorXd& high,
+                                  double tolerance) {
+  const Contact& contact = *problem.contact;
+  const Eigen::VectorXd w = low + proof.x.tail(low.size()).cwiseProduct(high - low);
+  const bool within = ((contact.w_min - w).array() <= tolerance).all() &&
+                      ((w - contact.w_max).array() <= tolerance).all();
+  return within ? "" : "a force of the second contact is beyond its limits";
+}
+
 std::string reject_value(const Problem& problem, const FormModel& model,
                          const ProofCertificate& proof, double tolerance) {
   const Zonotope& set = problem.robot.actuation;
@@ -147,11 +160,23 @@ std::string reject_value(const Problem& problem, const FormModel& model,
   if (!((h - W * (W.transpose() * h)).norm() <= tolerance)) return "its wrench is not allowed";
   if (!(std::abs(problem.c.dot(h) - proof.value) <= tolerance))
     return "its wrench has another value along c";
-  if (problem.contact_columns() > 0 && proof.u.size() != set.actuators()) {
+  if (problem.contact_columns() > 0 && polytope && proof.u.size() != set.actuators()) {
     return "the number of efforts differs from that of the actuators";
   }
+  std::vector<std::vector<Form>> parts = {model.tau_d(), model.exerted(h)};
+  if (model.coordinates().has_shares()) {
+    const ContactLimits limits(problem);
+    const Eigen::VectorXd low = limits.w_min + proof.value * limits.v_min;
+    const Eigen::VectorXd high = limits.w_max + proof.value * limits.v_max;
+    if (std::string why = reject_contact_forces(problem, proof, low, high, tolerance);
+        !why.empty()) {
+      return why;
+    }
+    parts.push_back(model.contact_load(low, high));
+  }
+  const bool braced = problem.contact_columns() > 0 && parts.size() == 2;
   const std::vector<Narrow> tau =
-      problem.contact_columns() > 0 ? braced_load(problem, model, proof) : load(model, proof.x, h);
+      braced ? braced_load(problem, model, proof) : load(model, proof.x, parts);
   if (polytope) return reject_balance(set.B, set, proof.u, tau, tolerance);
   if (proof.measure == "ellipsoid") return reject_ellipsoid(problem, model, proof, tau);
   const std::vector<Wide> u = efforts(enclose_pseudoinverse(set.B), tau);
@@ -188,6 +213,14 @@ std::string reject_balance(const Eigen::MatrixXd& B, const Zonotope& limits,
     if (!(left.magnitude() <= tolerance)) return "its efforts do not balance";
   }
   return "";
+}
+
+CoordinateChoice posture_coordinates(const Problem& problem, const ProofCertificate& proof) {
+  CoordinateChoice choice;
+  if (problem.contact_columns() == 0) return choice;
+  choice.contact_shares = proof.measure != "linf_polytope" || !forces_follow_from_base(problem) ||
+                          proof.x.size() != PostureCoordinates(problem).count();
+  return choice;
 }
 
 std::string reject_incumbent(const Problem& problem, const FormModel& model,

@@ -4,12 +4,17 @@
 #include <vector>
 
 #include "verify/certificate.h"
+#include "verify/coordinates.h"
 #include "verify/interval.h"
 
 namespace maxwrench {
 
 class Equations;
 class FormModel;
+
+/// The coordinates of the certificate's posture. The forces of a second contact are among them
+/// unless they follow from the base and the certificate goes without them.
+CoordinateChoice posture_coordinates(const Problem& problem, const ProofCertificate& proof);
 
 /// Checks the value of the certificate's posture. Empty, or the reason why the posture does not
 /// have this value: a coordinate is beyond its limits, the equations do not hold up to 1e-10, the

@@ -30,7 +30,7 @@ void FormModel::weigh() {
   for (std::size_t i = robot.joints.size(); i > 0; --i) {
     if (!on_chain_[i]) continue;
     const auto to = static_cast<std::size_t>(parent(i));
-    const Place& place = places_[i - 1];
+    const FormPose& place = places_[i - 1];
     load_[to] =
         load_[to] + place.R * load_[i] + cross(place.p, Form(shape_, carried_[i]) * pull_[to]);
   }
@@ -127,31 +127,59 @@ std::vector<Form> FormModel::exerted(const Vector6d& h) const {
 }
 
 std::vector<FormVector> FormModel::levers() const {
+  const FormVector nothing = constant(Eigen::Vector3d::Zero());
+  std::vector<FormVector> rows(static_cast<std::size_t>(problem_.robot.velocities()), nothing);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const FormVector force = constant(Eigen::Vector3d::Unit(static_cast<Eigen::Index>(k)));
+    const std::vector<Form> column = exerted_by_contact(force, nothing);
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i][k] = column[i];
+  }
+  return rows;
+}
+
+std::vector<Form> FormModel::exerted_by_contact(const FormVector& force,
+                                                const FormVector& torque) const {
   const Robot& robot = problem_.robot;
   const auto at = static_cast<std::size_t>(problem_.contact->end_effector);
   const EndEffector& touching = robot.end_effectors[at];
-  const FormVector nothing = constant(Eigen::Vector3d::Zero());
-  std::vector<FormVector> rows(static_cast<std::size_t>(robot.velocities()), nothing);
+  std::vector<Form> rows(static_cast<std::size_t>(robot.velocities()), Form(shape_));
   const std::size_t base = robot.base_axes.size();
-  for (std::size_t k = 0; k < 3; ++k) {
-    const FormVector force = constant(Eigen::Vector3d::Unit(static_cast<Eigen::Index>(k)));
-    const auto moment_at = [&](int link, const FormVector& along) {
-      return cross(seen(touching.link, constant(touching.placement.p), link), along);
-    };
-    const FormVector moment = moment_at(0, force);
-    for (std::size_t i = 0; i < base; ++i) {
-      const auto axis = static_cast<std::size_t>(robot.base_axes[i]);
-      rows[i][k] = axis < 3 ? force[axis] : moment[axis - 3];
-    }
-    for (int link = touching.link; link > 0; link = parent(static_cast<std::size_t>(link))) {
-      const auto joint = static_cast<std::size_t>(link - 1);
-      const FormVector along = seen(0, force, link, false);
-      const bool turns = robot.joints[joint].type == JointType::kRevolute;
-      rows[base + joint][k] =
-          dot(constant(robot.joints[joint].axis), turns ? moment_at(link, along) : along);
-    }
+  const auto moment_about = [&](int link, const FormVector& along, const FormVector& about) {
+    return about + cross(seen(touching.link, constant(touching.placement.p), link), along);
+  };
+  const FormVector moment = moment_about(0, force, torque);
+  for (std::size_t i = 0; i < base; ++i) {
+    const auto axis = static_cast<std::size_t>(robot.base_axes[i]);
+    rows[i] = axis < 3 ? force[axis] : moment[axis - 3];
+  }
+  for (int link = touching.link; link > 0; link = parent(static_cast<std::size_t>(link))) {
+    const auto joint = static_cast<std::size_t>(link - 1);
+    const FormVector along = seen(0, force, link, false), about = seen(0, torque, link, false);
+    const bool turns = robot.joints[joint].type == JointType::kRevolute;
+    rows[base + joint] =
+        dot(constant(robot.joints[joint].axis), turns ? moment_about(link, along, about) : along);
   }
   return rows;
+}
+
+std::vector<Form> FormModel::contact_load(const Eigen::VectorXd& low,
+                                          const Eigen::VectorXd& high) const {
+  const Matrix6Xd& C = problem_.contact->C;
+  const FormVector nothing = constant(Eigen::Vector3d::Zero());
+  std::array<FormVector, 2> wrench = {nothing, nothing};  // in the contact's frame
+  for (Eigen::Index k = 0; k < C.cols(); ++k) {
+    const Form w(shape_, coordinates_.shares + static_cast<int>(k), Wide(low[k]),
+                 Wide(high[k]) - Wide(low[k]), 0.0L);
+    for (std::size_t i = 0; i < 2; ++i) {
+      wrench[i] = wrench[i] + w * constant(C.col(k).segment<3>(3 * static_cast<Eigen::Index>(i)));
+    }
+  }
+  const FormMatrix R = contact_frame().R;
+  const auto in_base = [&](const FormVector& x) {
+    if (!coordinates_.base_is_dependent) return from_world(R * x);
+    return seen(tip().link, matrix(tip().placement.R) * into_pose(R * x, false), 0, false);
+  };
+  return exerted_by_contact(in_base(wrench[0]), in_base(wrench[1]));
 }
 
 /// Sets the base's rows, from the base's yaw and the position of the end effector in base axes.

@@ -20,19 +20,22 @@ Wide exact_product(double a, double b) { return Wide(a) * Wide(b); }
 
 }  // namespace
 
-FormModel::FormModel(const Problem& problem) : FormModel(problem, nullptr, -1) {}
+FormModel::FormModel(const Problem& problem) : FormModel(problem, nullptr) {}
 
-FormModel::FormModel(const Problem& problem, const std::vector<LinkLoad>* loads, int without)
+FormModel::FormModel(const Problem& problem, const std::vector<LinkLoad>* loads,
+                     const CoordinateChoice& choice)
     : problem_(problem),
-      coordinates_(problem, without),
+      coordinates_(problem, choice),
       shape_(shape_of(coordinates_)),
       on_chain_(problem.robot.links.size(), 0),
       pose_R_(matrix(problem.pose.R)),
       shift_(constant(Eigen::Vector3d::Zero())) {
   on_chain_[0] = 1;
   for (const int joint : coordinates_.chain) on_chain_[static_cast<std::size_t>(joint) + 1] = 1;
-  for (const PostureCoordinates::Variable& each : coordinates_.variables) {
-    far_.push_back(std::max(std::abs(each.lower), std::abs(each.upper)) + 1);
+  for (int i = 0; i < coordinates_.count(); ++i) {
+    const auto& each = coordinates_.variables[static_cast<std::size_t>(i)];
+    const double margin = i < coordinates_.shares ? 1 : 0;  // joints may be beyond their limits
+    far_.push_back(std::max(std::abs(each.lower), std::abs(each.upper)) + margin);
   }
   set_pose();
   for (std::size_t i = 0; i < problem.robot.joints.size(); ++i) places_.push_back(place_of(i));
@@ -84,6 +87,24 @@ FormVector FormModel::pose_place() const {
   return constant(problem_.pose.p) + along * shift_;
 }
 
+/// F(s_2) of `contact_pose`.
+FormPose FormModel::contact_frame() const {
+  const Contact& contact = *problem_.contact;
+  FormPose pose{matrix(contact.frame.R), constant(contact.frame.p)};
+  const int variable = coordinates_.regrasp;
+  if (contact.surface == Surface::kCircle) {
+    pose.R = pose.R * turn(1, variable);
+    const Form radius(shape_, static_cast<long double>(contact.radius));
+    pose.p = pose.p - radius * transposed(pose.R)[2];
+    return pose;
+  }
+  const FormMatrix columns = transposed(pose.R);
+  for (int i = 0; i < contact.coordinates(); ++i) {
+    pose.p = pose.p + sliding(variable + i) * columns[static_cast<std::size_t>(i)];
+  }
+  return pose;
+}
+
 /// If the shift is in the end effector's own axes, R'p = R'p_0 + shift.
 FormVector FormModel::into_pose(const FormVector& x, bool point) const {
   const FormMatrix back = transposed(pose_R_);
@@ -93,11 +114,11 @@ FormVector FormModel::into_pose(const FormVector& x, bool point) const {
 }
 
 /// Rodrigues' formula: a joint rotates its link by 1 + sin q S + (1 - cos q) S S, S = [axis]x.
-FormModel::Place FormModel::place_of(std::size_t joint) const {
+FormPose FormModel::place_of(std::size_t joint) const {
   const Joint& at = problem_.robot.joints[joint];
   const int variable = coordinates_.of_joint[joint];
   const double rest = rest_of(problem_, joint);
-  Place place{matrix(at.placement.R), constant(at.placement.p)};
+  FormPose place{matrix(at.placement.R), constant(at.placement.p)};
   if (at.type == JointType::kPrismatic) {
     const FormVector along = place.R * constant(at.axis);
     const Form q = variable < 0 ? Form(shape_, static_cast<long double>(rest)) : sliding(variable);
@@ -148,7 +169,7 @@ void FormModel::weigh_links(const std::vector<LinkLoad>* loads) {
     const auto to = static_cast<std::size_t>(parent(i));
     carried_[to] += carried_[i];
     if (on_chain_[i]) continue;
-    const Place& place = places_[i - 1];
+    const FormPose& place = places_[i - 1];
     moment_[to] = moment_[to] + place.R * moment_[i] + Form(shape_, carried_[i]) * place.p;
   }
 }
@@ -168,7 +189,7 @@ FormVector FormModel::seen(int a, FormVector x, int b, bool point) const {
     }
   }
   for (auto link = outward.rbegin(); link != outward.rend(); ++link) {
-    const Place& place = places_[*link - 1];
+    const FormPose& place = places_[*link - 1];
     x = transposed(place.R) * (point ? x - place.p : x);
   }
   return x;

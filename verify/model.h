@@ -6,6 +6,12 @@
 
 namespace maxwrench {
 
+/// A pose as forms.
+struct FormPose {
+  FormMatrix R;
+  FormVector p;
+};
+
 /// The robot of a static task: all its rows as forms in the coordinates of a posture, computed by
 /// recursion along the tree. Gravity and wrenches depend on the end effector's pose. They are
 /// carried from its axes towards the base, and quantities that depend on the base are carried the
@@ -19,8 +25,9 @@ class FormModel {
  public:
   /// Keeps a reference to the problem. Throws std::invalid_argument, in one line, for other tasks.
   explicit FormModel(const Problem& problem);
-  /// The same with a joint of the chain at rest, see `PostureCoordinates`.
-  FormModel(const Problem& problem, int without) : FormModel(problem, nullptr, without) {}
+  /// The same with other coordinates.
+  FormModel(const Problem& problem, const CoordinateChoice& choice)
+      : FormModel(problem, nullptr, choice) {}
   explicit FormModel(const Problem&&) = delete;
   /// The same robot with these wet masses in place of its own.
   FormModel(const Problem& problem, const std::vector<LinkLoad>& loads)
@@ -40,6 +47,11 @@ class FormModel {
   /// A, n rows: a force F of a second contact, in base axes, adds A F to tau. Depends on the joints
   /// of the second arm only.
   std::vector<FormVector> levers() const;
+  /// J_2'C_2 w, n, with the wrench w = low + omega (high - low) of a second contact, where omega
+  /// are the shares.
+  std::vector<Form> contact_load(const Eigen::VectorXd& low, const Eigen::VectorXd& high) const;
+  /// The frame of the second contact in the world, at its regrasp coordinates.
+  FormPose contact_frame() const;
   /// The force of a wrench c, or its torque if not `force`, in base axes.
   FormVector along_at_base(const Vector6d& c, bool force) const;
   /// [linear; angular] velocity of the base when the end effector moves by c as one body with the
@@ -73,15 +85,12 @@ class FormModel {
   long double shrinking() const;
 
  private:
-  struct Place {
-    FormMatrix R;
-    FormVector p;
-  };
-  Place place_of(std::size_t joint) const;
+  FormPose place_of(std::size_t joint) const;
   void set_pose();
   std::array<FormVector, 2> to_base(int link, FormVector along, FormVector about) const;
   std::array<FormVector, 2> from_end_effector(const Vector6d& h) const;
-  FormModel(const Problem& problem, const std::vector<LinkLoad>* loads, int without = -1);
+  FormModel(const Problem& problem, const std::vector<LinkLoad>* loads,
+            const CoordinateChoice& choice = {});
   void weigh_links(const std::vector<LinkLoad>* loads);
   void weigh();
   void weigh_from_base();
@@ -89,6 +98,8 @@ class FormModel {
   Form held_by(std::size_t joint) const;  ///< the joint's row of tau_d
   void exert_on_base(const Vector6d& h, std::vector<Form>& rows) const;
   FormVector from_world(const FormVector& x) const;  ///< direction to base axes, by the yaw
+  /// What a force and a torque in base axes add to tau at the second end effector.
+  std::vector<Form> exerted_by_contact(const FormVector& force, const FormVector& torque) const;
   FormVector inboard(std::size_t link, const FormVector& before) const;
   int parent(std::size_t link) const { return problem_.robot.joints[link - 1].parent; }
   const EndEffector& tip() const {
@@ -101,10 +112,10 @@ class FormModel {
   std::vector<char> on_chain_;  ///< links between base and end effector
   std::vector<double> far_;
   FormMatrix pose_R_;
-  FormVector shift_;           ///< displacement of the pose by its free coordinates
-  std::vector<Place> places_;  ///< of each joint: parent link -> link
-  std::vector<Wide> mass_;     ///< kg, wet, of each link
-  std::vector<Wide> carried_;  ///< kg, with all that a link carries
+  FormVector shift_;              ///< displacement of the pose by its free coordinates
+  std::vector<FormPose> places_;  ///< of each joint: parent link -> link
+  std::vector<Wide> mass_;        ///< kg, wet, of each link
+  std::vector<Wide> carried_;     ///< kg, with all that a link carries
   /// First moment of each link about its origin, with all that it carries except the chain.
   std::vector<FormVector> moment_;
   std::vector<FormVector> pull_;   ///< gravity in link axes

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "verify/contact_limits.h"
 #include "verify/proof_over_box.h"
 #include "verify/weighted.h"
 
@@ -10,6 +11,7 @@ namespace {
 struct PureRows {
   std::vector<FormRow> tau, a;  ///< n
   double ceiling;
+  bool from_zero;  ///< these rows are those of values t >= 0 only
 };
 
 /// The common part of the proofs of one wrench.
@@ -24,6 +26,11 @@ class PureProof : public ProofOverBox {
 
   int width() const override { return own_width() + equations_.count(); }
   double ceiling() const override { return rows_->ceiling; }
+  double most(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, const double* multiplier,
+              std::size_t parts, double low, double high) override {
+    if (rows_->from_zero && !(low >= 0)) return high;
+    return ProofOverBox::most(lower, upper, multiplier, parts, low, high);
+  }
 
  protected:
   /// The number of entries of lambda.
@@ -149,16 +156,29 @@ class EllipsoidProof final : public PureProof {
   WideRows Q_inverse_;
 };
 
+void add(const std::vector<Form>& rows, std::vector<Form>& sum) {
+  for (std::size_t i = 0; i < rows.size(); ++i) sum[i] += rows[i];
+}
+
 }  // namespace
 
 std::unique_ptr<ValueProof> make_pure_proof(const Problem& problem, const FormModel& model,
                                             const Equations& equations,
                                             const std::string& measure) {
+  std::vector<Form> tau = model.tau_d(), a = model.exerted(problem.c);
+  bool grows = false;
+  if (model.coordinates().has_shares()) {
+    const ContactLimits limits(problem);
+    grows = limits.grow();
+    add(model.contact_load(limits.w_min, limits.w_max), tau);
+    if (grows) add(model.contact_load(limits.v_min, limits.v_max), a);
+  }
+  const bool has_ceiling = model.coordinates().base_is_dependent && !grows;
   const auto rows = std::make_shared<const PureRows>(
-      PureRows{to_rows(model.tau_d(), model.far()), to_rows(model.exerted(problem.c), model.far()),
-               model.coordinates().base_is_dependent
-                   ? pure_ceiling(problem, model, problem.c, problem.robot.actuation, model.tau_d())
-                   : kInfinity});
+      PureRows{to_rows(tau, model.far()), to_rows(a, model.far()),
+               has_ceiling ? pure_ceiling(problem, model, problem.c, problem.robot.actuation, tau)
+                           : kInfinity,
+               grows});
   if (measure == "linf_polytope") {
     return std::make_unique<PolytopeProof>(problem, model, equations, rows);
   }

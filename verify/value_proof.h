@@ -44,8 +44,9 @@ class ValueProof {
 ///
 ///     t <= max over v of (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v
 ///
-/// if lambda'a_v > 0 at all v. Throws std::invalid_argument, in one line, for measures that it does
-/// not support.
+/// if lambda'a_v > 0 at all v. With shares of the forces of a second contact, `ContactLimits`,
+/// tau_d and J'c include these forces. Throws std::invalid_argument, in one line, for measures that
+/// it does not support.
 std::unique_ptr<ValueProof> make_pure_proof(const Problem& problem, const FormModel& model,
                                             const Equations& equations, const std::string& measure);
 
@@ -83,6 +84,19 @@ std::unique_ptr<ValueProof> make_any_proof(const Problem& problem, const FormMod
 /// lambda_s of some of them add up to a bound of the kind of the first one. A part of a multiplier
 /// is [wrench, limits, case of each load, z of the ball, lambda_s]; they share nu.
 std::unique_ptr<ValueProof> make_list_proof(const Problem& problem, const FormModel& model,
+                                            const Equations& equations);
+
+/// For any wrenches with dependent joints and the L-infinity polytope. Let h be the wrench's
+/// components across c, A = J'W those of J' along them, and h = M u - p + rho, |rho| <= R, the law
+/// of `FreeWrenchLimits` over a box. For any lambda and nu
+///
+///     t <= max over control points v, t in {low, high}, u within limits and |rho| <= R of
+///          t (1 - lambda'a_v) + lambda'B u - lambda'tau_v - nu'f_v
+///             - lambda'A_v (M u - p + rho).
+///
+/// The entries of a multiplier are [lambda; nu; the lambda of the law]. Throws
+/// std::invalid_argument, in one line, for efforts without limits.
+std::unique_ptr<ValueProof> make_free_proof(const Problem& problem, const FormModel& model,
                                             const Equations& equations);
 
 /// One of those above, as the measure and the wrench require.

@@ -277,12 +277,12 @@ std::vector<OpenBox> first_boxes(TreeWalk& walk, OpenBox root) {
 }  // namespace
 
 Verification verify(const Problem& problem, const ProofCertificate& proof, int threads) {
-  const FormModel posture(problem);  // with all coordinates
+  const FormModel posture(problem, posture_coordinates(problem, proof));
   const Equations all(problem, posture);
   std::optional<FormModel> without;
   std::optional<Equations> fewer;
   if (proof.without_yaw_joint) {
-    without.emplace(problem, joint_about_yaw(problem));
+    without.emplace(problem, CoordinateChoice{joint_about_yaw(problem)});
     fewer.emplace(problem, *without);
   }
   const FormModel& model = without ? *without : posture;

@@ -101,7 +101,7 @@ int certify_motion(const CertifyCommandOptions& options, const CLI::App& command
 /// Neither the check of a certificate nor the list of good postures supports all tasks.
 void throw_on_unsupported(const CertifyCommandOptions& options, const Problem& problem) {
   const Options of = options.read_options();
-  const std::string got = why_no_certificate(problem, of.wrench, of.measure);
+  const std::string got = why_no_certificate(problem, of.wrench);
   if (!options.certificate.empty() && !got.empty()) {
     throw std::invalid_argument("--certificate: got " + got + ", expected one without");
   }

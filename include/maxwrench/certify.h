@@ -42,14 +42,10 @@ struct Proof : Verdict {
   double gap() const;
 };
 
-/// Returns what keeps a task from having a certificate: forces of a second contact that the base
-/// does not determine, currents, or any wrenches of a list, with dependent joints or with
-/// components that are not free. Empty if nothing does.
-///
-/// A base that moves along all six axes determines the forces of a contact that has all three and
-/// no limits, for linf_polytope and a single wrench.
-std::string why_no_certificate(const Problem& task, Wrench wrench = Wrench::kPure,
-                               const std::string& measure = "linf_polytope");
+/// Returns what keeps a task from having a certificate: forces of a second contact of a list,
+/// currents, any wrenches of a list, or any wrenches that leave out free axes of a base whose pose
+/// follows in closed form. Empty if nothing does.
+std::string why_no_certificate(const Problem& task, Wrench wrench = Wrench::kPure);
 
 /// Searches for the best posture, and proves by branch and bound over all of theta_r how much
 /// larger a value can be.

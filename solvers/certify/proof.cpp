@@ -58,7 +58,7 @@ void settle_posture(const Options& options, Answer& answer) {
   constexpr double kNear = 1e-13, kFar = 1e-7;  // [rad or m]
   constexpr int kTrials = 256;
   const Problem& problem = *answer.task;
-  const FormModel model(problem);
+  const FormModel model(problem, posture_coordinates(problem, claim_of(answer)));
   const Equations equations(problem, model);
   const auto accepted = [&](const Answer& one) {
     return reject_incumbent(problem, model, equations, claim_of(one)).empty();
@@ -148,17 +148,13 @@ Proof certify(const Problem& task, const Options& options, const ProofOptions& h
   return proof;
 }
 
-std::string why_no_certificate(const Problem& task, Wrench wrench, const std::string& measure) {
-  if (task.contact_columns() > 0) {
-    const bool determined = base_determines_forces(task) && measure == "linf_polytope";
-    if (!determined) return "a task with forces of a second contact";
-    if (!task.scenarios.empty()) return "a list with forces of a second contact";
+std::string why_no_certificate(const Problem& task, Wrench wrench) {
+  if (task.contact_columns() > 0 && !task.scenarios.empty()) {
+    return "a list with forces of a second contact";
   }
   if (wrench == Wrench::kAny && !task.scenarios.empty()) return "any wrenches of a list";
-  if (wrench == Wrench::kAny && !task.dependent.empty())
-    return "any wrenches with dependent joints";
   const auto free_axes = static_cast<Eigen::Index>(task.robot.base_axes.size());
-  if (wrench == Wrench::kAny && task.W_any.cols() != free_axes) {
+  if (wrench == Wrench::kAny && task.dependent.empty() && task.W_any.cols() != free_axes) {
     return "any wrenches that leave out some components";
   }
   return has_current(task.scenarios) ? "a task with currents" : "";
@@ -166,8 +162,7 @@ std::string why_no_certificate(const Problem& task, Wrench wrench, const std::st
 
 Proof certify(const Problem& task, const Options& options, const ProofOptions& how) {
   if (!how.keep_certificate) return certify(task, options, how, nullptr);
-  if (const std::string got = why_no_certificate(task, options.wrench, options.measure);
-      !got.empty()) {
+  if (const std::string got = why_no_certificate(task, options.wrench); !got.empty()) {
     throw std::invalid_argument("keep_certificate: got " + got + ", expected one without");
   }
   ProofRecorder recorder;

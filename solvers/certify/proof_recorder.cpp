@@ -33,6 +33,24 @@ std::vector<double> decides_of(const Problem& problem, const Answer& answer) {
   return numbers;
 }
 
+/// The coordinates of a posture, with the shares of the forces of its second contact as
+/// `make_capability_bound` has them.
+Eigen::VectorXd coordinates_of(const Problem& problem, const Answer& answer) {
+  Eigen::VectorXd x = BoxCoordinates(problem).of(answer.posture);
+  const bool determined =
+      answer.choice.measure == "linf_polytope" && base_determines_forces(problem);
+  const Eigen::Index l = problem.contact_columns();
+  if (l == 0 || determined || !problem.scenarios.empty()) return x;
+  const LoopCoordinates limits(problem);
+  const double t = answer.capability.beta;
+  const Eigen::ArrayXd low = limits.w_min + t * limits.v_min;
+  const Eigen::ArrayXd range = (limits.w_max + t * limits.v_max).array() - low;
+  const Eigen::ArrayXd above = answer.capability.w.tail(l).array() - low;
+  x.conservativeResize(x.size() + l);
+  x.tail(l) = (range > 0).select(above / range, 0).cwiseMax(0).cwiseMin(1);
+  return x;
+}
+
 }  // namespace
 
 ProofRecorder::Box& ProofRecorder::box(std::size_t id) {
@@ -144,7 +162,7 @@ ProofCertificate claim_of(const Answer& answer) {
   proof.wrench = answer.choice.wrench;
   proof.collision = problem.robot.collision != nullptr;
   proof.digest = digest(problem);
-  proof.x = BoxCoordinates(problem).of(answer.posture);
+  proof.x = coordinates_of(problem, answer);
   proof.value = answer.capability.beta;
   proof.u = answer.capability.u;
   proof.h = answer.capability.h;

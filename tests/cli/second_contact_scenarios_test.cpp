@@ -100,7 +100,7 @@ INSTANTIATE_TEST_SUITE_P(
                     "a task with a second contact, expected a static task with one contact"},
         WallRefusal{"simulate task.toml", kAnyDead, "expected one without a second contact"},
         WallRefusal{"certify task.toml --certificate x.proof", kAnyDead,
-                    "--certificate: got a task with forces of a second contact"},
+                    "--certificate: got a list with forces of a second contact"},
         WallRefusal{"certify task.toml --wrench any", kAnyDead, "wrench: got 'any', expected pure"},
         WallRefusal{"certify task.toml", "[loss]\nany = 2\nactuators = ['thrusters', 'joints']\n",
                     "certify: got forces of a second contact with many scenarios, expected at most "

@@ -50,9 +50,9 @@ TEST(BracedRows, AreTheBalanceWithoutTheContactsForce) {
   EXPECT_GT(seen, 5);
 }
 
-/// The bounds of other measures, of any wrenches and of lists know no force of a second contact, so
-/// a certificate that claims one of these is no proof.
-TEST(BracedProof, IsTheOnlyOneWithForcesOfASecondContact) {
+/// The bounds of other measures, of any wrenches and of lists know no force of a second contact
+/// without shares, so a certificate that claims one of these is no proof.
+TEST(BracedProof, IsTheOnlyOneWithoutSharesOfForces) {
   Problem problem = pushing_and_turning();
   const FormModel model(problem);
   const Equations equations(problem, model);
@@ -62,6 +62,12 @@ TEST(BracedProof, IsTheOnlyOneWithForcesOfASecondContact) {
   EXPECT_NO_THROW(make("linf_polytope", Wrench::kPure));
   EXPECT_THROW(make("linf_polytope", Wrench::kAny), std::invalid_argument);
   EXPECT_THROW(make("l2_polytope", Wrench::kPure), std::invalid_argument);
+  Problem limited = problem;
+  limited.contact->w_max[1] = 100;  // no longer any force
+  const FormModel other(limited);
+  const Equations same(limited, other);
+  EXPECT_THROW(make_value_proof(limited, other, same, "linf_polytope", Wrench::kPure),
+               std::invalid_argument);
   EXPECT_THROW(make("ellipsoid", Wrench::kPure), std::invalid_argument);
   problem.scenarios.wrenches = {{"one", problem.c}, {"other", -problem.c}};
   EXPECT_THROW(make("linf_polytope", Wrench::kPure), std::invalid_argument);

@@ -121,7 +121,7 @@ TEST_P(EquationsOf, AreThoseOfTheBoundAnywhere) {
 TEST_P(EquationsOf, ExcludeNoPosture) {
   const Problem problem = loop_problem(GetParam());
   PostureSource source(problem, "linf_polytope");
-  const FormModel model(problem, source.coordinates().resting.value_or(-1));
+  const FormModel model(problem, CoordinateChoice{source.coordinates().resting.value_or(-1)});
   const Equations equations(problem, model);
   EquationsOverBox points(equations);
   Random random(3);

@@ -150,11 +150,9 @@ TEST_P(FormModelOf, HasItsValuesBetweenControlPoints) {
   }
 }
 
-TEST(FormModel, RejectsForcesOfASecondContactAndTasksInTime) {
-  for (const char* name : {"dual_arm/bar_wall", "uvms/valve_trajectory"}) {
-    const Problem problem = load_problem(name);
-    EXPECT_THROW(FormModel{problem}, std::invalid_argument) << name;
-  }
+TEST(FormModel, RejectsTasksInTime) {
+  const Problem problem = load_problem("uvms/valve_trajectory");
+  EXPECT_THROW(FormModel{problem}, std::invalid_argument);
 }
 
 TEST(BoxForms, RejectsHalfATurn) {

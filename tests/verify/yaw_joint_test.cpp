@@ -36,7 +36,7 @@ TEST(VerifyYawJoint, LoadsAreThoseOfTheBoundAnywhere) {
   const Problem problem = on_parked_base();
   const LoopCoordinates coordinates(problem, ContactForces::kShares, 0);
   LoopPosture exact(problem, coordinates);
-  const FormModel model(problem, joint_about_yaw(problem));
+  const FormModel model(problem, CoordinateChoice{joint_about_yaw(problem)});
   EXPECT_EQ(model.coordinates().count(), coordinates.chain.count());
   const std::vector<Form> tau_d = model.tau_d(), a = model.exerted(problem.c);
   const Eigen::Index n = problem.robot.velocities();

@@ -64,7 +64,8 @@ std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem);
 ///                     of t (1 - lambda'a_v) + lambda'B u - lambda'tau_v - nu'f_v
 ///                        - lambda'A_v (P (B u - tau_m) + rho).
 ///
-/// The multiplier is [lambda; nu]. A box in which nothing limits h has no bound. `low` and `high`
+/// The multiplier is [lambda; nu; the lambda of the centre, from which P follows]. A box in which
+/// nothing limits h has no bound. `low` and `high`
 /// are at most what limits t there, `FreeLimits`. Throws std::invalid_argument, with one line, for
 /// more free components than the robot has coordinates, and for too many actuators.
 std::unique_ptr<Bound> make_free_bound(const Problem& problem);

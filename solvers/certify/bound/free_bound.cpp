@@ -49,16 +49,17 @@ class FreeBound final : public Bound {
     low_ = free_.least_t();
     high_ = free_.most_t();
     values_.set_ends(low_, high_);
-    if (proof.multiplier.size() == model_->n + model_->m) {
+    if (proof.multiplier.size() == 2 * model_->n + model_->m) {
       lambda_ = proof.multiplier.head(model_->n);
-      nu_ = proof.multiplier.tail(model_->m);
+      nu_ = proof.multiplier.segment(model_->n, model_->m);
     } else {
       lambda_.setZero(model_->n);
       nu_.setZero(model_->m);
     }
     take(value(), proof);
-    both_.setZero(model_->n + model_->m);
-    proof.improve(high_, both_);
+    lambda_.setZero();
+    nu_.setZero();
+    take(high_, proof);
     if (proof.high <= low) return;
     linear_.precondition(lower, upper);
     program_.set_columns(free_.N().transpose() * set_->B);
@@ -76,8 +77,8 @@ class FreeBound final : public Bound {
   static constexpr double kClose = 0.1;
 
   void take(double U, BoxProof& proof) {
-    both_.resize(model_->n + model_->m);
-    both_ << lambda_, nu_;
+    both_.resize(2 * model_->n + model_->m);
+    both_ << lambda_, nu_, free_.centre_lambda();
     proof.improve(U, both_);
   }
 

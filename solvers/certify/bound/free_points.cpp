@@ -139,8 +139,8 @@ void FreePoints::find_P() {
   }
   basis_.clear();
   centre_.solve(-kInfinity, kCentreSteps, basis_, y_);
-  lambda_.noalias() = N_ * y_;
-  own_.noalias() = set_->B.transpose() * lambda_;
+  centre_lambda_.noalias() = N_ * y_;
+  own_.noalias() = set_->B.transpose() * centre_lambda_;
   own_ = own_.cwiseAbs().cwiseProduct(half_);
   own_ = kSmallShare * own_.maxCoeff() / own_.array().max(1e-300);
   own_ = own_.cwiseMin(1).cwiseMax(kLeastWidth).cwiseProduct(half_);

@@ -57,6 +57,8 @@ class FreePoints {
   double most_t() const { return most_t_; }
   /// n×(n - k).
   const Eigen::MatrixXd& N() const { return N_; }
+  /// The multiplier of the centre, from which P follows.
+  const Eigen::VectorXd& centre_lambda() const { return centre_lambda_; }
 
   /// Subtracts the largest lambda'B u - lambda'A h from g at each control point.
   void weigh(const Eigen::VectorXd& lambda, Eigen::VectorXd& g);
@@ -85,7 +87,8 @@ class FreePoints {
   Eigen::MatrixXd A_;         ///< [a A]
   Eigen::MatrixXd off_;       ///< largest deviations of [tau a A] from it in the box
   Eigen::MatrixXd N_, P_, PB_, S_;
-  Eigen::VectorXd R_, P_tau_, middle_, half_, lambda_, y_, own_, slopes_, sums_, u_, h_, sizes_;
+  Eigen::VectorXd R_, P_tau_, middle_, half_, centre_lambda_, lambda_, y_, own_, slopes_, sums_, u_,
+      h_, sizes_;
   std::vector<Eigen::VectorXd> q_;  ///< lambda'A at all control points, of each component
   std::vector<int> basis_;
   Eigen::LLT<Eigen::MatrixXd> llt_;

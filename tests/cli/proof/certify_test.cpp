@@ -97,9 +97,6 @@ TEST(CertifyCommand, RejectsInOneLine) {
   rejected("mobile/trajectory --theta-r 2.3,-2 --wrench any", "for a proof in time");
   rejected("dual_arm/bar_wall --measure ellipsoid", "got 'ellipsoid'");
   rejected("dual_arm/bar_alone --wrench any", "second contact");
-  rejected("fixed/push --wrench any --certificate proof.bin", "any wrenches with dependent joints");
-  rejected("dual_arm/bar_wall --certificate proof.bin",
-           "--certificate: got a task with forces of a second contact");
   rejected("planar/force --measure volume", "--measure: got 'volume'");
   rejected("planar/force --measure ellipsoid --wrench any", "--wrench: got 'any'");
   rejected("planar/force --gap 1e-9", "--gap");

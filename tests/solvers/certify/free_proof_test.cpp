@@ -54,14 +54,6 @@ TEST(FreeProof, SLOW_IsThatOfTheWheels) {
   EXPECT_GE(proof.bound, proof.answer.beta());
 }
 
-/// `verify` would not accept it.
-TEST(FreeProof, HasNoCertificate) {
-  const Problem problem = load_problem("fixed/push");
-  EXPECT_EQ(why_no_certificate(problem, Wrench::kAny), "any wrenches with dependent joints");
-  EXPECT_EQ(why_no_certificate(problem, Wrench::kPure), "");
-  EXPECT_THROW(certify(problem, any_wrenches(), {.keep_certificate = true}), std::invalid_argument);
-}
-
 /// A list of scenarios has no such bound.
 TEST(FreeProof, IsNotForLists) {
   Problem problem = load_problem("fixed/push");

@@ -209,7 +209,7 @@ TEST(AloneListBound, ProvesTheBestPlaceOfALossBesideASecondContact) {
   }
   EXPECT_LE(best, proof.bound);
   EXPECT_GE(best, (kSanitized ? 0.7 : 0.95) * proof.bound);
-  EXPECT_EQ(why_no_certificate(task, Wrench::kPure), "a task with forces of a second contact");
+  EXPECT_EQ(why_no_certificate(task, Wrench::kPure), "a list with forces of a second contact");
 }
 
 /// Without shares, a box has the coordinates of the posture only, for all scenarios.
