@@ -147,6 +147,9 @@ struct MotionTask {
   Scheme scheme = Scheme::kSpline;  ///< how the knots become a motion
   int instants_per_interval = 4;    ///< for the scheme `spline`; 16 in an impulse
   bool rates = true;                ///< whether the rate limits of efforts apply
+  /// Whether a collision at any instant counts, not only at knots. `solve_proven` sets it where
+  /// bodies come too close to each other between knots.
+  bool clear_at_instants = false;
   /// Time constant of the thrusters for which their commands must be within the limits [s]. Zero:
   /// the thrust equals the command.
   double thruster_lag = 0;

@@ -88,11 +88,14 @@ struct DependentRows : KnotRows {
   Eigen::VectorXd at;  ///< values of the functions at the trajectory
 };
 
-/// Two bodies of the robot that are near each other at a knot.
+/// Two bodies of the robot that are near each other at a knot, or at an instant between knots.
 struct NearPair {
-  int knot = 0;              ///< the knot, from 0
+  int knot = 0;              ///< the knot, from 0; between knots that of the nearest weights
   double clearance = 0;      ///< distance less the margin [m]
-  Eigen::VectorXd gradient;  ///< derivative of the clearance by theta_r at this knot (r)
+  Eigen::VectorXd gradient;  ///< derivative of the clearance by theta_r there (r)
+  /// Of an instant between knots: theta_r there is the sum of the knots (k) with these weights, and
+  /// of what is given. Empty at a knot.
+  Eigen::VectorXd weights;
 };
 
 /// The least distance of two bodies of the robot along a trajectory.
@@ -190,7 +193,8 @@ class TrajectoryEvaluator {
   /// Returns the solution of the last `evaluate_elastic`.
   const TrajectorySolution& elastic_solution() const;
 
-  /// Returns the pairs of bodies that are near each other at a knot.
+  /// Returns the pairs of bodies that are near each other at a knot, or at any instant
+  /// (`MotionTask::clear_at_instants`).
   ///
   /// It includes only pairs that have a distance. The result is empty if collisions are not
   /// checked.

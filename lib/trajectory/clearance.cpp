@@ -37,31 +37,51 @@ void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematic
 }
 
 void find_near_pairs(const Problem& problem, MotionEvaluator& motion, const Eigen::MatrixXd& Q,
-                     double within, Kinematics<double>& kinematics, std::vector<NearPair>& pairs) {
+                     double within, bool at_instants, Kinematics<double>& kinematics,
+                     std::vector<NearPair>& pairs) {
   const SchemeMaps& maps = motion.maps();
   auto next = static_cast<std::size_t>(maps.before);
   const std::size_t end = maps.knot_at.size() - static_cast<std::size_t>(maps.after);
   motion.visit(Q, [&](int instant, const Eigen::VectorXd& q, const Eigen::MatrixXd& slopes) {
-    if (next >= end || instant != maps.knot_at[next]) return;
+    const bool is_knot = next < end && instant == maps.knot_at[next];
+    if (!is_knot && !at_instants) return;
+    const Eigen::VectorXd weights = maps.P.row(instant).segment(maps.before, maps.rows());
+    if (!is_knot && weights.isZero(0)) return;  // given
     kinematics.set_joints(q);
-    const int knot = static_cast<int>(next++) - maps.before;
+    int knot = 0;
+    if (is_knot) {
+      knot = static_cast<int>(next++) - maps.before;
+    } else {
+      weights.cwiseAbs().maxCoeff(&knot);
+    }
+    const std::size_t first = pairs.size();
     find_near_pairs(problem, kinematics, knot, within, pairs, slopes);
+    for (std::size_t i = first; !is_knot && i < pairs.size(); ++i) pairs[i].weights = weights;
   });
 }
 
-std::string knot_collision(const Problem& problem, const MotionEvaluator& motion,
-                           const std::vector<Instant>& instants, Kinematics<double>& kinematics) {
+std::string first_collision(const Problem& problem, const MotionEvaluator& motion,
+                            const std::vector<Instant>& instants, bool at_instants,
+                            Kinematics<double>& kinematics) {
   const SchemeMaps& maps = motion.maps();
   const int first = maps.starts ? 0 : 1;
   const std::size_t end = maps.knot_at.size() - static_cast<std::size_t>(maps.after);
-  for (auto knot = static_cast<std::size_t>(maps.before); knot < end; ++knot) {
-    const int instant = maps.knot_at[knot];
-    if (motion.lost() >= 0 && instant >= motion.lost()) break;
+  const auto colliding_at = [&](int instant) {
+    if (motion.lost() >= 0 && instant >= motion.lost()) return -1;
     kinematics.set_joints(instants[static_cast<std::size_t>(instant)].q);
-    const int pair = problem.robot.collision->colliding_pair(kinematics.links());
+    return problem.robot.collision->colliding_pair(kinematics.links());
+  };
+  for (auto knot = static_cast<std::size_t>(maps.before); knot < end; ++knot) {
+    const int pair = colliding_at(maps.knot_at[knot]);
     if (pair < 0) continue;
     return "self-collision: knot " + std::to_string(first + static_cast<int>(knot)) + ": " +
            problem.robot.collision->pair_name(pair);
+  }
+  for (int instant = 0; at_instants && instant < maps.instants(); ++instant) {
+    const int pair = colliding_at(instant);
+    if (pair < 0) continue;
+    return "self-collision: at t = " + std::to_string(maps.t[static_cast<std::size_t>(instant)]) +
+           " s: " + problem.robot.collision->pair_name(pair);
   }
   return {};
 }

@@ -19,17 +19,19 @@ void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematic
                      double within, std::vector<NearPair>& pairs,
                      const Eigen::MatrixXd& slopes = Eigen::MatrixXd());
 
-/// The same at the knots of a table Q (K×r). Knots are numbered from 0. For an impulse the first
-/// row is theta_0, which is left out. Stops where the dependent joints have no solution. Leaves the
-/// links at the last visited knot.
+/// The same at the knots of a table Q (K×r), and between them if `at_instants`. Knots are numbered
+/// from 0. For an impulse the first row is theta_0, which is left out. Stops where the dependent
+/// joints have no solution. Leaves the links at the last visited knot or instant.
 void find_near_pairs(const Problem& problem, MotionEvaluator& motion, const Eigen::MatrixXd& Q,
-                     double within, Kinematics<double>& kinematics, std::vector<NearPair>& pairs);
+                     double within, bool at_instants, Kinematics<double>& kinematics,
+                     std::vector<NearPair>& pairs);
 
 /// The first knot of an evaluated motion with a collision, and the pair of bodies; empty if there
-/// is none. Checks the knots before the instant at which the motion was lost. Leaves the links at
-/// the last checked knot.
-std::string knot_collision(const Problem& problem, const MotionEvaluator& motion,
-                           const std::vector<Instant>& instants, Kinematics<double>& kinematics);
+/// is none. With `at_instants`, then the first other instant. Checks what is before the instant at
+/// which the motion was lost. Leaves the links at the last checked knot or instant.
+std::string first_collision(const Problem& problem, const MotionEvaluator& motion,
+                            const std::vector<Instant>& instants, bool at_instants,
+                            Kinematics<double>& kinematics);
 
 /// The least clearance at the instants of a table Q; see `TrajectoryEvaluator::least_clearance`.
 /// Leaves the links at the last instant.

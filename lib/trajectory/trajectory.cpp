@@ -32,7 +32,8 @@ const std::vector<NearPair>& TrajectoryEvaluator::near_pairs(const Eigen::Matrix
   Workspace& ws = *workspace_;
   ws.near.clear();
   if (!ws.check_collision) return ws.near;
-  find_near_pairs(ws.problem, ws.motion, all_knots(ws.task, knots), within, ws.links, ws.near);
+  find_near_pairs(ws.problem, ws.motion, all_knots(ws.task, knots), within,
+                  ws.task.clear_at_instants, ws.links, ws.near);
   return ws.near;
 }
 

@@ -103,7 +103,8 @@ std::string TrajectoryEvaluator::Workspace::violation() const {
 }
 
 std::string TrajectoryEvaluator::Workspace::collision() {
-  return check_collision ? knot_collision(problem, motion, trajectory.instants, links) : "";
+  if (!check_collision) return "";
+  return first_collision(problem, motion, trajectory.instants, task.clear_at_instants, links);
 }
 
 MotionEvaluator& TrajectoryEvaluator::Workspace::on_spline() {

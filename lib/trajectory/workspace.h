@@ -28,7 +28,7 @@ struct TrajectoryEvaluator::Workspace {
   void require_table(const Eigen::MatrixXd& knots) const;
   /// Why the knots or their motion are not feasible; empty if they are.
   std::string violation() const;
-  /// Empty, or the first knot that collides.
+  /// Empty, or the first knot or instant that collides.
   std::string collision();
   /// The motion on the clamped spline through the knots, of which there must be at least two.
   MotionEvaluator& on_spline();

@@ -16,6 +16,11 @@ constexpr double kSmallestRadius = 1e-7;
 constexpr double kConverged = 1e-9;  // predicted, relative to 1 + |f|
 [[maybe_unused]] constexpr int kPolishPoints = 400;
 
+/// The weight of each knot in theta_r where two bodies are near each other.
+double weight(const NearPair& pair, Eigen::Index knot) {
+  return pair.weights.size() > 0 ? pair.weights[knot] : knot == pair.knot ? 1 : 0;
+}
+
 }  // namespace
 
 SlpRun::SlpRun(const TrajectoryObjective& objective, Candidate start, SearchRun& run, bool alike,
@@ -161,23 +166,33 @@ void SlpRun::set_rows() {
             trust_.radius());
   for (const NearPair& pair :
        trajectories_.near_pairs(unstacked(x, trajectories_.knots()), kNearing * trust_.radius())) {
-    for (Eigen::Index j = 0; j < r; ++j) rows_.add(pair.knot * r + j, pair.gradient[j]);
+    for (Eigen::Index knot = 0; knot < trajectories_.knots(); ++knot) {
+      const double share = weight(pair, knot);
+      for (Eigen::Index j = 0; share != 0 && j < r; ++j) {
+        rows_.add(knot * r + j, share * pair.gradient[j]);
+      }
+    }
     rows_.end_row(-pair.clearance, kInfinity);
   }
   rows_.move_to(*program_, x.size());
   if (shared_.size() > 0) program_->R = (program_->R * shared_).sparseView();
 }
 
-/// Moves colliding knots of x apart by Newton's method along the gradients of the clearance.
+/// Moves bodies of x that collide apart by Newton's method along the gradients of the clearance.
 Eigen::VectorXd SlpRun::apart(Eigen::VectorXd x) {
   const Eigen::Index r = x.size() / trajectories_.knots();
   for (int round = 0; round < kApartRounds; ++round) {
     const auto& near = trajectories_.near_pairs(unstacked(x, trajectories_.knots()), 0);
     if (near.empty()) break;
     for (const NearPair& pair : near) {
-      const double squared = pair.gradient.squaredNorm();
+      const double shares = pair.weights.size() > 0 ? pair.weights.squaredNorm() : 1;
+      const double squared = shares * pair.gradient.squaredNorm();
       if (!(squared > 0)) continue;
-      x.segment(pair.knot * r, r) += (kSpare - pair.clearance) / squared * pair.gradient;
+      for (Eigen::Index knot = 0; knot < trajectories_.knots(); ++knot) {
+        const double share = weight(pair, knot);
+        if (share == 0) continue;
+        x.segment(knot * r, r) += share * (kSpare - pair.clearance) / squared * pair.gradient;
+      }
     }
     x = inside(x);
   }

@@ -134,8 +134,10 @@ bool tighten_limits(const Problem& task, const Eigen::MatrixXd& knots, double& w
     possible = possible && tighter.q_min <= tighter.q_max;
   }
   const double depth = deepest_collision(model);
-  if (depth > kTouching) {
-    exceeds = true;
+  if (depth > kTouching) exceeds = true;
+  if (depth > kTouching && !tight.motion->clear_at_instants) {
+    tight.motion->clear_at_instants = true;
+  } else if (depth > kTouching) {
     wider = std::max(2 * wider, depth * kMoreThanDepth);
     tight.robot.collision = std::make_shared<WiderMargin>(task.robot.collision, wider);
   }

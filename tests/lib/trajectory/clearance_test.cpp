@@ -44,9 +44,15 @@ TEST(Clearance, GradientIsThatOfCentralDifferences) {
   EXPECT_GT(compared, 500);
 }
 
-/// Of the knots of a trajectory, with dependent joints.
-TEST(Clearance, GradientHasTheDependentJoints) {
-  const Problem problem = load_problem("mobile/trajectory");
+/// The slope of a pair's clearance by a coordinate of a knot.
+double slope_of(const NearPair& pair, Eigen::Index knot, Eigen::Index coordinate) {
+  const double at_knot = pair.knot == knot ? 1 : 0;
+  const double share = pair.weights.size() > 0 ? pair.weights[knot] : at_knot;
+  return share * pair.gradient[coordinate];
+}
+
+/// Compares the slopes of all pairs by all knots with differences. Returns the number of pairs.
+std::size_t expect_slopes_of_trajectories(const Problem& problem) {
   TrajectoryEvaluator evaluator(problem, Wrench::kPure, trajectory_solvers().front().make);
   Eigen::VectorXd x = problem.theta_r_default.replicate(problem.motion->k, 1);
   Random random(6);
@@ -56,22 +62,34 @@ TEST(Clearance, GradientHasTheDependentJoints) {
   };
   const auto pairs = near(x);
   const double h = 1e-6;
+  const Eigen::Index r = problem.redundancy();
   int compared = 0;
   for (Eigen::Index j = 0; j < x.size(); ++j) {
     const auto after = near(x + h * Eigen::VectorXd::Unit(x.size(), j));
     const auto before = near(x - h * Eigen::VectorXd::Unit(x.size(), j));
-    ASSERT_EQ(after.size(), pairs.size());
-    ASSERT_EQ(before.size(), pairs.size());
+    EXPECT_EQ(after.size(), pairs.size());
+    EXPECT_EQ(before.size(), pairs.size());
     for (std::size_t i = 0; i < pairs.size(); ++i) {
       const double right = (after[i].clearance - pairs[i].clearance) / h;
       const double left = (pairs[i].clearance - before[i].clearance) / h;
       if (std::abs(right - left) > 1e-3) continue;  // another feature becomes the nearest
-      const double slope = pairs[i].knot == j / 2 ? pairs[i].gradient[j % 2] : 0;
+      const double slope = slope_of(pairs[i], j / r, j % r);
       EXPECT_NEAR(slope, (right + left) / 2, 1e-5);
       compared += std::abs(slope) > 1e-3;
     }
   }
   EXPECT_GT(compared, 20);
+  return pairs.size();
+}
+
+/// Of trajectories, also with dependent joints, and with a start that is given.
+TEST(Clearance, GradientIsThatOfKnotsAndInstants) {
+  for (const char* name : {"mobile/trajectory", "uvms/lift_impulse"}) {
+    Problem problem = load_problem(name);
+    const std::size_t at_knots = expect_slopes_of_trajectories(problem);
+    problem.motion->clear_at_instants = true;
+    EXPECT_GT(expect_slopes_of_trajectories(problem), 2 * at_knots) << name;
+  }
 }
 
 TEST(Clearance, IsNegativeWhereBodiesCollide) {
@@ -177,6 +195,39 @@ TEST(LeastClearance, SLOW_IsThatOfAMuchDenserCurve) {
   }
   EXPECT_GT(clear, 0);
   EXPECT_GT(between, 0);  // a collision that no knot shows
+}
+
+/// Two knots on either side of a collision: it counts only where instants do.
+TEST(Clearance, CollidesBetweenKnotsWhereInstantsCount) {
+  Problem problem = load_problem("uvms/valve_trajectory");
+  const int k = problem.motion->k;
+  Random random(5);
+  int between = 0;
+  for (int sample = 0; sample < 60; ++sample) {
+    Eigen::MatrixXd knots = problem.theta_r_default.transpose().replicate(k, 1);
+    knots.col(2).array() += 0.25;  // away from where the forearm meets the base
+    for (double& q : knots.reshaped()) q += random.uniform(-0.3, 0.3);
+    problem.motion->clear_at_instants = false;
+    TrajectoryEvaluator of_knots = evaluator_of(problem);
+    if (!of_knots.evaluate(knots).collision.empty()) continue;
+    problem.motion->clear_at_instants = true;
+    TrajectoryEvaluator of_instants = evaluator_of(problem);
+    const std::string collision = of_instants.evaluate(knots).collision.str();
+    const auto least = [&](TrajectoryEvaluator& evaluator) {
+      double found = kInfinity;
+      for (const NearPair& pair : evaluator.near_pairs(knots, 1)) {
+        found = std::min(found, pair.clearance);
+      }
+      return found;
+    };
+    EXPECT_GT(least(of_knots), 0);
+    EXPECT_EQ(least(of_instants) < 0, !collision.empty());
+    if (collision.empty()) continue;
+    ++between;
+    EXPECT_NE(collision.find("at t = "), std::string::npos) << collision;
+    EXPECT_EQ(of_instants.evaluate_elastic(knots, nullptr), -kInfinity);
+  }
+  EXPECT_GT(between, 0);
 }
 
 TEST(LeastClearance, NamesTheCollisionOfAKnot) {

@@ -142,6 +142,19 @@ TEST(TrajectoryProof, SLOW_SolvesAProvenImpulse) {
   EXPECT_NE(proof.rejection.find("q3_elbow moves at 0.50"), std::string::npos) << proof.rejection;
 }
 
+/// The trajectory that the search finds is too fast between its instants, and what follows from
+/// slower joints touches itself between knots. Little is lost where its bodies move apart there.
+TEST(TrajectoryProof, SLOW_SolvesAProvenLiftThatTouchesItself) {
+  const Problem problem = load_problem("uvms/lift_impulse");
+  Options options;
+  options.budget = 1000;
+  const TrajectoryProof proof = solve_proven(problem, options);
+  EXPECT_EQ(proof.status, Status::kProven) << proof.reason.str();
+  EXPECT_NE(proof.rejection, "");
+  EXPECT_GE(proof.guaranteed, proof.searched * (1 - 1e-3));
+  EXPECT_GE(proof.clearance, -1e-5);
+}
+
 /// The proof loses little of the value between knots. It may even be above it: between two instants
 /// the efforts of that program are linear, so only the end of each command is at its limit. Without
 /// lag no less is proven.

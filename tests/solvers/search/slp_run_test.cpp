@@ -150,25 +150,29 @@ TEST(SlpRun, KeepsTheBoundsThatItStartsAt) {
   }
 }
 
-/// The default posture is as near to itself as it may be, and steps from there lead into collision.
-TEST(SlpRun, MovesKnotsApart) {
-  const Problem problem = load_problem("uvms/valve_trajectory");
-  SlpRun slp_run = slp_run_from(elastic_value(problem), default_table(problem));
-  TrajectoryEvaluator trajectories(problem, Wrench::kPure, find_trajectory_solver("ipm").make);
-  const auto least = [&](const VectorXd& x) {
-    double clearance = 1;
-    for (const NearPair& pair : trajectories.near_pairs(unstacked(x, knots_of(problem)), 1)) {
-      clearance = std::min(clearance, pair.clearance);
-    }
-    return clearance;
-  };
-  ASSERT_LT(least(slp_run.at().theta_r), 1e-6);
-  const double start = slp_run.value();
-  slp_run.optimise(20);
-  EXPECT_GT(slp_run.value(), start + 1);
-  EXPECT_GE(least(slp_run.at().theta_r), 0);
-  EXPECT_TRUE(
-      trajectories.evaluate(unstacked(slp_run.at().theta_r, knots_of(problem))).collision.empty());
+/// The default posture is as near to itself as it may be, and steps from there lead into collision,
+/// at knots and, where they count, between them.
+TEST(SlpRun, MovesBodiesApart) {
+  for (const bool at_instants : {false, true}) {
+    Problem problem = load_problem("uvms/valve_trajectory");
+    problem.motion->clear_at_instants = at_instants;
+    SlpRun slp_run = slp_run_from(elastic_value(problem), default_table(problem));
+    TrajectoryEvaluator trajectories(problem, Wrench::kPure, find_trajectory_solver("ipm").make);
+    const auto least = [&](const VectorXd& x) {
+      double clearance = 1;
+      for (const NearPair& pair : trajectories.near_pairs(unstacked(x, knots_of(problem)), 1)) {
+        clearance = std::min(clearance, pair.clearance);
+      }
+      return clearance;
+    };
+    ASSERT_LT(least(slp_run.at().theta_r), 1e-6);
+    const double start = slp_run.value();
+    slp_run.optimise(20);
+    EXPECT_GT(slp_run.value(), start + 1);
+    EXPECT_GE(least(slp_run.at().theta_r), 0);
+    EXPECT_TRUE(trajectories.evaluate(unstacked(slp_run.at().theta_r, knots_of(problem)))
+                    .collision.empty());
+  }
 }
 
 /// Bounds that differ from knot to knot, and a start whose knots differ: a step that all knots
