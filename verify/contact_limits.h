@@ -12,10 +12,12 @@ namespace maxwrench {
 /// with the value t, at least zero if v is not zero. All are finite. A component without a limit of
 /// its own is bounded by the base's free linear axes, which bear the weight, t c and C w alone:
 ///
-///     |w| <= (F + t |c_f|)/sigma,
+///     |w_k| <= (F + t |c_f|)/sigma,
 ///
 /// with the largest force F of weight and actuators, the force c_f of c, and the smallest singular
-/// value sigma of the force of C in these axes.
+/// value sigma of the forces C_f of C in these axes. If no component is negative, sigma is also the
+/// least d'C_f,k with the direction d of the sum of all C_f,k: then d'C_f w >= sigma w_k. The
+/// larger one counts.
 struct ContactLimits {
   /// Throws std::invalid_argument, in one line, if nothing limits a component.
   explicit ContactLimits(const Problem& problem);

@@ -138,6 +138,11 @@ Matrix6Xd free_components(const Problem& problem) {
 std::unique_ptr<ValueProof> make_free_proof(const Problem& problem, const FormModel& model,
                                             const Equations& equations) {
   const Zonotope& set = problem.robot.actuation;
+  if (model.coordinates().resting >= 0) {
+    throw std::invalid_argument(problem.name +
+                                ": wrench: got 'any' without the joint about the yaw, expected "
+                                "all coordinates");
+  }
   if (!set.u_min.allFinite() || !set.u_max.allFinite()) {
     throw std::invalid_argument(problem.name +
                                 ": wrench: got 'any' with efforts without limits, expected pure "

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "maxwrench/types.h"
 #include "maxwrench/zonotope.h"
 #include "verify/interval.h"
 

@@ -160,7 +160,7 @@ std::string reject_value(const Problem& problem, const FormModel& model,
   if (!((h - W * (W.transpose() * h)).norm() <= tolerance)) return "its wrench is not allowed";
   if (!(std::abs(problem.c.dot(h) - proof.value) <= tolerance))
     return "its wrench has another value along c";
-  if (problem.contact_columns() > 0 && polytope && proof.u.size() != set.actuators()) {
+  if (proof.u.size() != set.actuators()) {
     return "the number of efforts differs from that of the actuators";
   }
   std::vector<std::vector<Form>> parts = {model.tau_d(), model.exerted(h)};

@@ -281,7 +281,7 @@ Verification verify(const Problem& problem, const ProofCertificate& proof, int t
   const Equations all(problem, posture);
   std::optional<FormModel> without;
   std::optional<Equations> fewer;
-  if (proof.without_yaw_joint) {
+  if (proof.without_yaw_joint && !leaves_out_too_much(problem, proof)) {
     without.emplace(problem, CoordinateChoice{joint_about_yaw(problem)});
     fewer.emplace(problem, *without);
   }

@@ -11,6 +11,14 @@ namespace {
 /// among instants between which nothing moves.
 constexpr double kNearer = 1e-9;
 
+/// The weights of the knots of a table in theta_r at an instant.
+Eigen::VectorXd weights_at(const SchemeMaps& maps, int instant) {
+  return maps.P.row(instant).segment(maps.before, maps.rows());
+}
+
+/// Whether the knots of a table move an instant; the others are given.
+bool is_free(const SchemeMaps& maps, int instant) { return !weights_at(maps, instant).isZero(0); }
+
 }  // namespace
 
 void find_near_pairs(const Problem& problem, const Kinematics<double>& kinematics, int knot,
@@ -44,9 +52,8 @@ void find_near_pairs(const Problem& problem, MotionEvaluator& motion, const Eige
   const std::size_t end = maps.knot_at.size() - static_cast<std::size_t>(maps.after);
   motion.visit(Q, [&](int instant, const Eigen::VectorXd& q, const Eigen::MatrixXd& slopes) {
     const bool is_knot = next < end && instant == maps.knot_at[next];
-    if (!is_knot && !at_instants) return;
-    const Eigen::VectorXd weights = maps.P.row(instant).segment(maps.before, maps.rows());
-    if (!is_knot && weights.isZero(0)) return;  // given
+    if (!is_knot && !(at_instants && is_free(maps, instant))) return;
+    const Eigen::VectorXd weights = weights_at(maps, instant);
     kinematics.set_joints(q);
     int knot = 0;
     if (is_knot) {
@@ -78,7 +85,7 @@ std::string first_collision(const Problem& problem, const MotionEvaluator& motio
            problem.robot.collision->pair_name(pair);
   }
   for (int instant = 0; at_instants && instant < maps.instants(); ++instant) {
-    const int pair = colliding_at(instant);
+    const int pair = is_free(maps, instant) ? colliding_at(instant) : -1;
     if (pair < 0) continue;
     return "self-collision: at t = " + std::to_string(maps.t[static_cast<std::size_t>(instant)]) +
            " s: " + problem.robot.collision->pair_name(pair);

@@ -23,6 +23,32 @@ double weight(const NearPair& pair, Eigen::Index knot) {
 
 }  // namespace
 
+Eigen::VectorXd moved_apart(TrajectoryEvaluator& trajectories, const Objective& objective,
+                            Eigen::VectorXd x) {
+  const Eigen::Index r = x.size() / trajectories.knots();
+  for (int round = 0; round < kApartRounds; ++round) {
+    const Eigen::VectorXd before = x;
+    const auto& near = trajectories.near_pairs(unstacked(x, trajectories.knots()), 0);
+    if (near.empty()) break;
+    for (const NearPair& pair : near) {
+      if (pair.weights.size() == 0) {
+        const double squared = pair.gradient.squaredNorm();
+        if (!(squared > 0)) continue;
+        x.segment(pair.knot * r, r) += (kSpare - pair.clearance) / squared * pair.gradient;
+        continue;
+      }
+      const Eigen::MatrixXd slopes = pair.gradient * pair.weights.transpose();  // r×k
+      const double squared = slopes.squaredNorm();
+      const double clearance = pair.clearance + slopes.reshaped().dot(x - before);
+      if (squared > 0 && clearance < kSpare) {
+        x += (kSpare - clearance) / squared * slopes.reshaped();
+      }
+    }
+    x = x.cwiseMax(objective.lower()).cwiseMin(objective.upper());
+  }
+  return x;
+}
+
 SlpRun::SlpRun(const TrajectoryObjective& objective, Candidate start, SearchRun& run, bool alike,
                bool guides)
     : objective_(objective.copy(objective.counts())),
@@ -92,7 +118,7 @@ bool SlpRun::try_step() {
   const bool alike = shared_.size() > 0;
   const Eigen::VectorXd step = alike ? shared_ * solution.y : solution.y;
   Eigen::VectorXd trial = inside(at_.theta_r + step);
-  if (!alike) trial = apart(std::move(trial));
+  if (!alike) trial = moved_apart(trajectories_, *objective_, std::move(trial));
   const double value = evaluate(trial);
   const double size = solution.y.lpNorm<Eigen::Infinity>();
   if (!trust_.judge(value - at_.value, predicted, size)) return false;
@@ -176,27 +202,6 @@ void SlpRun::set_rows() {
   }
   rows_.move_to(*program_, x.size());
   if (shared_.size() > 0) program_->R = (program_->R * shared_).sparseView();
-}
-
-/// Moves bodies of x that collide apart by Newton's method along the gradients of the clearance.
-Eigen::VectorXd SlpRun::apart(Eigen::VectorXd x) {
-  const Eigen::Index r = x.size() / trajectories_.knots();
-  for (int round = 0; round < kApartRounds; ++round) {
-    const auto& near = trajectories_.near_pairs(unstacked(x, trajectories_.knots()), 0);
-    if (near.empty()) break;
-    for (const NearPair& pair : near) {
-      const double shares = pair.weights.size() > 0 ? pair.weights.squaredNorm() : 1;
-      const double squared = shares * pair.gradient.squaredNorm();
-      if (!(squared > 0)) continue;
-      for (Eigen::Index knot = 0; knot < trajectories_.knots(); ++knot) {
-        const double share = weight(pair, knot);
-        if (share == 0) continue;
-        x.segment(knot * r, r) += share * (kSpare - pair.clearance) / squared * pair.gradient;
-      }
-    }
-    x = inside(x);
-  }
-  return x;
 }
 
 }  // namespace maxwrench

@@ -9,6 +9,12 @@
 
 namespace maxwrench {
 
+/// Moves bodies that collide at the trajectory x apart, by Newton's method along the gradients of
+/// their clearance and within the bounds of the objective. Neighbouring instants between knots move
+/// the same knots, so each takes up what those before it have left.
+Eigen::VectorXd moved_apart(TrajectoryEvaluator& trajectories, const Objective& objective,
+                            Eigen::VectorXd x);
+
 /// One local search by sequential linear programming. Each step y of the knots comes from a linear
 /// program in the knots, the efforts and the wrenches at once,
 ///
@@ -65,7 +71,6 @@ class SlpRun {
   void set_bounds();
   void set_rows();
   Eigen::VectorXd inside(const Eigen::VectorXd& x) const;
-  Eigen::VectorXd apart(Eigen::VectorXd x);
 
   std::unique_ptr<TrajectoryObjective> objective_;
   TrajectoryEvaluator& trajectories_;

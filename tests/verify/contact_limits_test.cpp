@@ -6,18 +6,34 @@
 #include "tests/support/contacts.h"
 #include "tests/support/loops.h"
 #include "tests/support/written_proof.h"
+#include "verify/box_forms.h"
 #include "verify/incumbent.h"
 #include "verify/model.h"
 
 namespace maxwrench {
 namespace {
 
+/// The four edges of a pyramid, none of which pulls.
+Problem with_friction() {
+  Problem problem = load_problem("dual_arm/bar_wall");
+  problem.contact->C.setZero(6, 4);
+  problem.contact->C.topRows<3>() << 0.4, -0.4, 0, 0, 0, 0, 0.4, -0.4, 1, 1, 1, 1;
+  problem.contact->w_min = Eigen::VectorXd::Zero(4);
+  problem.contact->w_max = Eigen::VectorXd::Constant(4, kInfinity);
+  return problem;
+}
+
+Problem problem_of(const std::string& name) {
+  return name == "friction" ? with_friction() : load_problem(name);
+}
+
 class ContactLimitsOf : public testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Shipped, ContactLimitsOf, testing::ValuesIn(kContactProblems));
+INSTANTIATE_TEST_SUITE_P(Cone, ContactLimitsOf, testing::Values("friction"));
 
 /// Multipliers are for the limits of the bound, so that they prove the same.
 TEST_P(ContactLimitsOf, AreThoseOfTheBound) {
-  Problem problem = load_problem(GetParam());
+  Problem problem = problem_of(GetParam());
   problem.c << 0.48, 0, 0.36, 0, 0, 0.8;
   const LoopCoordinates expected(problem);
   const ContactLimits limits(problem);
@@ -34,7 +50,7 @@ TEST_P(ContactLimitsOf, AreThoseOfTheBound) {
 
 /// The linear programs know nothing of these limits.
 TEST_P(ContactLimitsOf, HoldForTheBestWrenches) {
-  const Problem problem = load_problem(GetParam());
+  const Problem problem = problem_of(GetParam());
   const ContactLimits limits(problem);
   PostureSource source(problem, "linf_polytope");
   Random random(5);
@@ -81,10 +97,12 @@ TEST(ContactLoad, IsThatOfTheBoundAnywhere) {
   }
 }
 
-/// Two components along one line can be as large as they like.
+/// Two components along one line can be as large as they like, unless both push.
 TEST(ContactLimits, NeedAForceOfEachComponent) {
   Problem problem = load_problem("planar/two_arms");
   problem.contact->C.col(1) = problem.contact->C.col(0) * (1 + 1e-9);
+  EXPECT_TRUE(ContactLimits(problem).w_max.allFinite());
+  problem.contact->w_min[0] = -1;
   EXPECT_THROW(ContactLimits{problem}, std::invalid_argument);
   problem.contact->w_min.setConstant(-2);
   problem.contact->w_max.setConstant(7);
@@ -98,6 +116,20 @@ TEST(ContactLimits, NeedABaseThatMovesAlongTheForce) {
   Problem problem = load_problem("planar/two_arms");
   problem.contact->frame.R = Eigen::Matrix3d::Identity();  // its z is the world's
   EXPECT_THROW(ContactLimits{problem}, std::invalid_argument);
+}
+
+/// Along the wall's normal a push of w weighs w, along an edge of slope 0.4 more. So the limit of
+/// the push is that of each edge.
+TEST(ContactLimits, OfAConeAreThoseAlongItsMiddle) {
+  const ContactLimits push(load_problem("dual_arm/bar_wall")), cone(with_friction());
+  for (const double most : cone.w_max) EXPECT_NEAR(most, push.w_max[0], 1e-9 * most);
+}
+
+TEST(ContactLimits, OfAConeHaveCertificates) {
+  const WrittenProof at(with_friction(), "dual_arm/bar_wall", "linf_polytope", Wrench::kPure, 1e-1);
+  EXPECT_EQ(at.rejection(at.proof), "");
+  const WrittenProof push("dual_arm/bar_wall", "linf_polytope", Wrench::kPure, 1e-3);
+  EXPECT_GT(at.proof.value, push.proof.bound);  // a push that may slide less does more
 }
 
 /// A push of at least -5 N, and one of less than that.

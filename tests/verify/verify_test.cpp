@@ -10,6 +10,7 @@
 #include "tests/support/contacts.h"
 #include "tests/support/support.h"
 #include "tests/support/written_proof.h"
+#include "verify/coordinates.h"
 
 namespace maxwrench {
 namespace {
@@ -54,6 +55,12 @@ TEST_P(VerifyShipped, IsVerifiedAtAnyThreadCount) {
     if (kSanitized && threads == 1) continue;
     const Verification result = verify(at.problem, at.proof, threads);
     EXPECT_EQ(result.rejection, "");
+    // `certify` begins with no less, and not with much more.
+    const double ceiling =
+        make_capability_bound(at.problem, shipped.measure, shipped.wrench)->ceiling();
+    EXPECT_TRUE(ceiling == result.ceiling ||
+                (ceiling >= result.ceiling && ceiling <= 1.001 * result.ceiling))
+        << ceiling << ' ' << result.ceiling;
     EXPECT_EQ(result.boxes, static_cast<long>(at.proof.tree.nodes.size()));
     const long leaves =
         result.by_multiplier + result.by_collision + result.by_equations + result.by_parent;
@@ -66,6 +73,14 @@ TEST(Verify, RejectsABoundOfPureWrenchesAsOneOfAny) {
   WrittenProof at("mobile/push", "linf_polytope", Wrench::kPure, 1e-2);
   at.proof.wrench = Wrench::kAny;
   EXPECT_NE(at.rejection(at.proof), "");
+}
+
+/// The bound of any wrenches has the rows of all joints.
+TEST(Verify, RejectsAnyWrenchesWithoutAJointAboutTheYaw) {
+  WrittenProof at("mobile/push", "linf_polytope", Wrench::kAny, 2e-1);
+  ASSERT_GE(joint_about_yaw(at.problem), 0);
+  at.proof.without_yaw_joint = true;
+  EXPECT_NE(at.rejection(at.proof).find("leaves out a joint"), std::string::npos);
 }
 
 /// Without other components than c, any wrench is a multiple of it.

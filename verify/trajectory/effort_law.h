@@ -32,9 +32,9 @@ class EffortLaw {
   EffortLaw(const TrajectoryModel& model, const TrajectoryCertificate& proof);
   EffortLaw(const TrajectoryModel&, const TrajectoryCertificate&&) = delete;
 
-  /// Whether efforts and rates are within their limits, and the base is on its free axes, nearer to
-  /// one edge of an interval (0 to `parts`) than to its others. Cuts this time into slices as far
-  /// as needed, and adds their number.
+  /// Whether efforts, their commands (with a lag of the thrusters) and rates are within their
+  /// limits, and the base is on its free axes, nearer to one edge of an interval (0 to `parts`)
+  /// than to its others. Cuts this time into slices as far as needed, and adds their number.
   MotionFault check(int interval, int edge, long& slices) const;
 
  private:

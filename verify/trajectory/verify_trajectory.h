@@ -28,10 +28,10 @@ MotionFault check_efforts(const TrajectoryModel& model, const TrajectoryCertific
                           int threads, TrajectoryVerification& result);
 
 /// Checks that a certificate proves its claim about a task: the robot can exert the wrench or
-/// more at every instant, with efforts, effort rates, joints and joint speeds within their limits,
-/// and, if the certificate says so, without collision. The efforts are enclosed anew in interval
-/// arithmetic, from the problem's data and the certificate, without any code that found them. The
-/// result is the same at any number of threads.
+/// more at every instant, with efforts, their commands, effort rates, joints and joint speeds
+/// within their limits, and, if the certificate says so, without collision. The efforts are
+/// enclosed anew in interval arithmetic, from the problem's data and the certificate, without any
+/// code that found them. The result is the same at any number of threads.
 ///
 /// @throws std::invalid_argument as `require_provable`.
 TrajectoryVerification verify(const Problem& problem, const TrajectoryCertificate& proof,

@@ -65,9 +65,9 @@ std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem);
 ///                        - lambda'A_v (P (B u - tau_m) + rho).
 ///
 /// The multiplier is [lambda; nu; the lambda of the centre, from which P follows]. A box in which
-/// nothing limits h has no bound. `low` and `high`
-/// are at most what limits t there, `FreeLimits`. Throws std::invalid_argument, with one line, for
-/// more free components than the robot has coordinates, and for too many actuators.
+/// nothing limits h has no bound. `low` and `high` are at most what limits t there, `FreeLimits`.
+/// Throws std::invalid_argument, with one line, for more free components than the robot has
+/// coordinates, and for too many actuators.
 std::unique_ptr<Bound> make_free_bound(const Problem& problem);
 
 /// For a disc of wrenches E z, |z| <= beta, with any wrenches across it: P = {z : some efforts

@@ -67,9 +67,10 @@ std::unique_ptr<Bound> measure_bound(const Problem& problem, const std::string& 
         ": wrench: got 'any', expected pure for a proof of a list with dependent joints");
   }
   if (measure == "ellipsoid" && problem.contact_columns() > 0) {
-    throw std::invalid_argument(problem.name +
-                                ": measure: got 'ellipsoid', expected linf_polytope for a proof "
-                                "with forces of a second contact");
+    throw std::invalid_argument(
+        problem.name +
+        ": measure: got 'ellipsoid', expected linf_polytope or l2_polytope for a proof "
+        "with forces of a second contact");
   }
   if (!problem.scenarios.empty()) return make_list_bound(problem, wrench);
   if (!any || (problem.W_any.cols() == 1 && !problem.dependent.empty())) {

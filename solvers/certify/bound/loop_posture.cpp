@@ -50,34 +50,41 @@ Pose<Extended> exact_contact(const Contact& contact, const Extended* s) {
   return pose;
 }
 
-/// [N] The most that the base's thrusters bear in addition to the weight and the first end
+/// [N] The most that the base's linear axes bear in addition to the weight and the first end
 /// effector's force.
 double most_force(const Problem& problem) {
   const Robot& robot = problem.robot;
   const Zonotope& set = robot.actuation;
+  std::vector<int> linear;
+  for (std::size_t i = 0; i < robot.base_axes.size(); ++i) {
+    if (robot.base_axes[i] < 3) linear.push_back(static_cast<int>(i));
+  }
   double weight = -robot.trim.buoyancy_mass;
   for (const Link& link : robot.links) weight += link.mass - robot.water_density * link.volume;
   double most = std::abs(weight) * robot.gravity;
   for (Eigen::Index k = 0; k < set.actuators(); ++k) {
-    most +=
-        std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k])) * set.B.col(k).head<3>().norm();
+    most += std::max(std::abs(set.u_min[k]), std::abs(set.u_max[k])) * set.B.col(k)(linear).norm();
   }
   return most * (1 + 1e-9);
 }
 
-/// The least |force on the base's free linear axes| for a w of length 1; zero if not known.
+/// A number that |force on the base's free linear axes| exceeds for any w with a component of size
+/// 1; zero if none is known. It is the smallest singular value of the forces. If no component is
+/// negative, it may also be the least component of the forces along the middle of their cone.
 double least_force(const Problem& problem) {
   const Contact& contact = *problem.contact;
   const auto moves = [&](int axis) { return is_free_axis(problem.robot, axis); };
-  if (!moves(0) || !moves(1) || contact.C.cols() > 3) return 0;
+  if (!moves(0) || !moves(1)) return 0;
   Eigen::MatrixXd forces =
       problem.robot.mount.R.transpose() * contact.frame.R * contact.C.topRows<3>();
   if (!moves(2)) {  // the yaw turns the first two only
     if (contact.surface == Surface::kCircle) return 0;
     forces = forces.topRows(2).eval();
   }
-  if (forces.cols() > forces.rows()) return 0;
-  return singular_values(forces).minCoeff();
+  const double least = forces.cols() > forces.rows() ? 0 : singular_values(forces).minCoeff();
+  if (contact.w_min.minCoeff() < 0) return least;
+  const Eigen::VectorXd middle = forces.rowwise().sum().normalized();
+  return std::max(least, (middle.transpose() * forces).minCoeff());
 }
 
 }  // namespace
@@ -177,8 +184,8 @@ void LoopCoordinates::add_joint(const Problem& problem, int at, int joint) {
       given ? problem.theta_r_max[at] : of.q_max);
 }
 
-/// The base's free linear axes bear only the weight, t c and the second contact's force, so |w| <=
-/// (most_force + t |force of c|)/least_force.
+/// The base's free linear axes bear only the weight, t c and the second contact's force, so each
+/// |w_k| <= (most_force + t |force of c|)/least_force.
 void LoopCoordinates::limit_forces(const Problem& problem) {
   w_min = problem.contact->w_min;
   w_max = problem.contact->w_max;
@@ -188,7 +195,7 @@ void LoopCoordinates::limit_forces(const Problem& problem) {
   if (!(least > 1e-6)) {
     throw std::invalid_argument(problem.name +
                                 ": contact.forces: got forces without limits, expected limits, or "
-                                "a base whose free axes bear them, for a proof");
+                                "a base whose free axes bear each of them, for a proof");
   }
   const double most = most_force(problem) / least, by_t = problem.c.head<3>().norm() / least;
   for (Eigen::Index k = 0; k < w_min.size(); ++k) {

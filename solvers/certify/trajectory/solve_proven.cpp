@@ -33,6 +33,9 @@ constexpr double kFirstSlower = 8e-3;      // share of the effort rates
 constexpr double kFirstWeaker = 2.5e-4;    // share of the efforts
 /// More instants are worth a round where a proof loses this share of the value.
 constexpr double kLossOfInstants = 5e-4;
+/// The whole search is repeated once within the tighter limits where what is proven is below what
+/// the first one found by this share. A local search can end at a worse optimum.
+constexpr double kLossOfSearch = 1e-3;
 /// Extremes between knots are found on this many parts.
 constexpr int kPartsOfCurve = 256;
 /// Limits become tighter by this share more than needed.
@@ -69,14 +72,15 @@ class WiderMargin : public CollisionChecker {
   double wider_;
 };
 
-/// [m] By how much bodies come closer to each other than their margin along a trajectory.
-double deepest_collision(const TrajectoryModel& model) {
+/// [m] By how much bodies come closer to each other than their margin along a trajectory, at so
+/// many instants of each interval.
+double deepest_collision(const TrajectoryModel& model, int parts) {
   const CollisionChecker* const checker = model.problem().robot.collision.get();
   double least = 0;
   ClosestPoints near;
-  for (int i = 0; checker && i <= model.curve().intervals() * kPartsOfCurve; ++i) {
-    const int interval = std::min(i / kPartsOfCurve, model.curve().intervals() - 1);
-    const auto links = model.links(interval, i / double{kPartsOfCurve} - interval);
+  for (int i = 0; checker && i <= model.curve().intervals() * parts; ++i) {
+    const int interval = std::min(i / parts, model.curve().intervals() - 1);
+    const auto links = model.links(interval, i / static_cast<double>(parts) - interval);
     for (int pair = 0; pair < checker->pairs(); ++pair) {
       if (checker->nearest(links, pair, near)) least = std::min(least, near.clearance);
     }
@@ -133,11 +137,12 @@ bool tighten_limits(const Problem& task, const Eigen::MatrixXd& knots, double& w
     tighten(task.dependent[k], jet_of, joint.q_min, joint.q_max, tighter.q_min, tighter.q_max);
     possible = possible && tighter.q_min <= tighter.q_max;
   }
-  const double depth = deepest_collision(model);
-  if (depth > kTouching) exceeds = true;
-  if (depth > kTouching && !tight.motion->clear_at_instants) {
+  const double depth = deepest_collision(model, kPartsOfCurve);
+  if (depth > kTouching) {
+    exceeds = true;
     tight.motion->clear_at_instants = true;
-  } else if (depth > kTouching) {
+  }
+  if (depth > kTouching && deepest_collision(model, tight.motion->instants_per_interval) <= wider) {
     wider = std::max(2 * wider, depth * kMoreThanDepth);
     tight.robot.collision = std::make_shared<WiderMargin>(task.robot.collision, wider);
   }
@@ -172,17 +177,20 @@ double tighten_efforts(const Problem& task, double before, Problem& tight) {
 }
 
 /// The answer of the trajectory nearest to `knots`, on the way to them from a posture that is held,
-/// that has a value within the limits of `tight`. Without a value if this posture has none.
-Answer nearest_with_value(const Problem& tight, const Eigen::MatrixXd& knots,
-                          const Options& options) {
+/// that has a value within the limits of `tight`. Bodies that collide on the way are moved apart.
+/// Without a value if this posture has none.
+Answer nearest_with_value(const Problem& tight, const TrajectoryObjective& objective,
+                          const Eigen::MatrixXd& knots, const Options& options) {
   const MotionTask& motion = *tight.motion;
   Eigen::RowVectorXd held = knots.row(0);
   if (!motion.impulse) held = knots.colwise().mean();
   if (motion.impulse && motion.theta_0.size() > 0) held = motion.theta_0.transpose();
   const Eigen::MatrixXd still = held.replicate(knots.rows(), 1);
   Answer nearest;
+  const auto copy = objective.copy(objective.counts());
   const auto has_value = [&](const Eigen::MatrixXd& moving) {
-    Answer answer = evaluate(tight, moving, options);
+    const Eigen::VectorXd apart = moved_apart(copy->trajectories(), *copy, stacked(moving));
+    Answer answer = evaluate(tight, unstacked(apart, knots.rows()), options);
     const bool has = answer.has_value() && answer.trajectory.collision.empty();
     if (has) nearest = std::move(answer);
     return has;
@@ -200,17 +208,18 @@ Answer nearest_with_value(const Problem& tight, const Eigen::MatrixXd& knots,
 /// if it has no start.
 Answer continue_search(const Problem& tight, const Eigen::MatrixXd& knots, const Options& options) {
   const auto before = SearchClock::now();
-  Answer start = nearest_with_value(tight, knots, options);
-  if (!start.has_value()) return start;
   const auto objective = make_trajectory_objective(
       tight, options.wrench, trajectory_solvers().front().make, options.check_collision);
+  Answer start = nearest_with_value(tight, *objective, knots, options);
+  if (!start.has_value()) return start;
   SearchOptions search;
   search.interrupted = options.interrupted;
   SearchRun run(search);
   SlpRun slp(*objective, {stacked(start.trajectory.knots), start.beta()}, run);
   slp.optimise(kLocalEvaluations);
   // The best elastic value may be one that efforts reach almost.
-  Answer answer = nearest_with_value(tight, unstacked(slp.best().theta_r, knots.rows()), options);
+  Answer answer =
+      nearest_with_value(tight, *objective, unstacked(slp.best().theta_r, knots.rows()), options);
   if (!answer.has_value() || start.beta() > answer.beta()) answer = std::move(start);
   answer.evaluations = slp.found().trace.evaluations();
   answer.wall_s = std::chrono::duration<double>(SearchClock::now() - before).count();
@@ -265,8 +274,20 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
   }
   Eigen::MatrixXd knots = found.trajectory.knots;
   double share_of_efforts = 0;
+  bool repeated = false;
   std::optional<FirstTrajectory> first;
-  int& instants = tight.motion->instants_per_interval;
+  // Whether limits are tighter or instants more than before.
+  const auto tighten = [&](Status status) {
+    int& instants = tight.motion->instants_per_interval;
+    if (status == Status::kInvalidPosture) return tighten_limits(task, knots, wider, tight);
+    if (status == Status::kProven && instants >= kMostInstantsOfSearch) return false;
+    if (status == Status::kProven) {
+      instants *= 2;
+    } else {
+      share_of_efforts = tighten_efforts(task, share_of_efforts, tight);
+    }
+    return true;
+  };
   for (int round = 1;; ++round) {
     TrajectoryProof next = certify_trajectory(task, knots, proof_options, how);
     const Status status = next.status;
@@ -278,18 +299,15 @@ TrajectoryProof solve_proven(const Problem& task, const Options& options,
       proof = std::move(next);
       if (round > 1) first->tell(proof);
     }
-    if (enough || round == kMostProofs) break;
+    if (round == kMostProofs) break;
     if (options.interrupted && options.interrupted()) break;
-    if (status == Status::kInvalidPosture) {
-      if (!tighten_limits(task, knots, wider, tight)) break;
-    } else if (status != Status::kProven) {
-      share_of_efforts = tighten_efforts(task, share_of_efforts, tight);
-    } else if (instants < kMostInstantsOfSearch) {
-      instants *= 2;
-    } else {
-      break;
-    }
-    Answer continued = continue_search(tight, knots, proof_options);
+    const bool tightened = !enough && tighten(status);
+    const bool repeats = !tightened && !repeated && proof.status == Status::kProven &&
+                         proof.guaranteed < first->value * (1 - kLossOfSearch);
+    if (!tightened && !repeats) break;
+    repeated = repeated || repeats;
+    Answer continued;
+    if (!repeats) continued = continue_search(tight, knots, proof_options);
     if (!continued.has_value()) continued = solve(tight, options);
     if (!continued.has_value()) break;
     found.evaluations += continued.evaluations;

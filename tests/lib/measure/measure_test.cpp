@@ -246,6 +246,31 @@ TEST(Measure, EllipsoidIsThePositiveRoot) {
   }
 }
 
+/// A weight that takes up all of the ellipsoid, up to rounding: no root of a negative number.
+TEST(Measure, EllipsoidGivesNoNaNOnItsSurface) {
+  Random random(9);
+  int valued = 0;
+  for (int sample = 0; sample < 200; ++sample) {
+    Problem problem = random_problem(random, 3);
+    const Eigen::VectorXd theta_r = random_theta_r(problem, random);
+    const Zonotope& set = problem.robot.actuation;
+    const Eigen::VectorXd weight =
+        set.u_min.cwiseAbs().cwiseMin(set.u_max.cwiseAbs()).cwiseInverse();
+    Evaluator heavy(problem, "ellipsoid", Wrench::kPure);
+    heavy(theta_r);
+    problem.robot.gravity /= (weight.asDiagonal() * (set.B_pinv * heavy.program().tau_d)).norm();
+    for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
+      Evaluator evaluate(problem, "ellipsoid", wrench);
+      const Capability& capability = evaluate(theta_r);
+      EXPECT_FALSE(std::isnan(capability.beta));
+      if (capability.status != Status::kOptimal) continue;
+      EXPECT_GE(capability.beta, -1e-6);
+      ++valued;
+    }
+  }
+  EXPECT_GT(valued, 0);
+}
+
 /// It would pass for the proof that an infeasible capability carries.
 TEST(Measure, ClosedFormsLeaveNoMultiplierOfAnEarlierAnswer) {
   const Problem problem = load_problem("uvms/valve");

@@ -230,6 +230,44 @@ TEST(Clearance, CollidesBetweenKnotsWhereInstantsCount) {
   EXPECT_GT(between, 0);
 }
 
+/// Collides at one posture only.
+class CollidesAt final : public CollisionChecker {
+ public:
+  explicit CollidesAt(std::vector<Pose<double>> links) : links_(std::move(links)) {}
+  int colliding_pair(const std::vector<Pose<double>>& links) const override {
+    return (links.back().p - links_.back().p).norm() < 1e-9 ? 0 : -1;
+  }
+  int pairs() const override { return 1; }
+  bool nearest(const std::vector<Pose<double>>&, int, ClosestPoints&) const override {
+    return false;
+  }
+  std::string pair_name(int) const override { return "one and other"; }
+
+ private:
+  std::vector<Pose<double>> links_;
+};
+
+/// No knot moves the start of an impulse, so a collision there is not theirs.
+TEST(Clearance, LeavesOutAStartThatIsGiven) {
+  Problem problem = load_problem("uvms/lift_impulse");
+  Kinematics<double> kinematics(problem.robot);
+  Eigen::VectorXd q = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(problem.robot.joints.size()));
+  for (std::size_t k = 0; k < problem.redundant.size(); ++k) {
+    q[problem.redundant[k]] = problem.motion->theta_0[static_cast<Eigen::Index>(k)];
+  }
+  kinematics.set_joints(q);
+  problem.robot.collision = std::make_shared<CollidesAt>(kinematics.links());
+  const Eigen::MatrixXd still = problem.motion->theta_0.transpose().replicate(problem.motion->k, 1);
+  Eigen::MatrixXd moved = still;
+  moved.col(2).array() += 0.1;
+  for (const bool at_instants : {false, true}) {
+    problem.motion->clear_at_instants = at_instants;
+    TrajectoryEvaluator evaluator = evaluator_of(problem);
+    EXPECT_EQ(evaluator.evaluate(moved).collision.str(), "");
+    EXPECT_NE(evaluator.evaluate(still).collision.str(), "");
+  }
+}
+
 TEST(LeastClearance, NamesTheCollisionOfAKnot) {
   const Problem problem = load_problem("uvms/valve_trajectory");
   Eigen::VectorXd folded = problem.theta_r_default;
