@@ -25,7 +25,9 @@ using ProofClock = std::chrono::steady_clock;
 
 /// There are more parts while the proof loses more than this share.
 constexpr double kLossOfParts = 1e-4;
-constexpr int kMostParts = 200;
+constexpr int kMostParts = 350;
+/// Without a lag the loss falls with the square of the number, so no more are worth their time.
+constexpr int kMostPartsWithoutLag = 200;
 /// The loss falls a little slower than expected.
 constexpr double kMoreThanNeeded = 1.1;
 /// The least growth of the number of parts.
@@ -118,6 +120,7 @@ class TrajectoryProver {
   /// With as many parts as the margins need; with fewer of them if the proof fails with those.
   void prove_wrench() {
     const int usual = task_.motion->impulse ? 50 : 25;
+    const int most_parts = task_.motion->thruster_lag > 0 ? kMostParts : kMostPartsWithoutLag;
     if (task_.motion->impulse && claim_.t_h == 0) claim_.t_h = std::max(1, task_.motion->t_h);
     std::vector<int> fewer;  // with efforts that were not tried
     for (int parts = how_.parts > 0 ? how_.parts : usual;;) {
@@ -129,14 +132,14 @@ class TrajectoryProver {
       }
       const EdgeEfforts efforts = program.solve(kSlacks[0]);
       const double growth = growth_of_parts(most, efforts);
-      if (growth == 1 || parts == kMostParts) {
+      if (growth == 1 || parts >= most_parts) {
         if (prove_with(program, parts, efforts)) return;
       } else if (efforts.status == Status::kOptimal) {
         fewer.push_back(parts);
       }
-      if (parts == kMostParts) break;
+      if (parts >= most_parts) break;
       parts = static_cast<int>(
-          std::min(std::ceil(std::max(growth, kFewMore) * parts), double{kMostParts}));
+          std::min(std::ceil(std::max(growth, kFewMore) * parts), static_cast<double>(most_parts)));
     }
     for (; !fewer.empty(); fewer.pop_back()) {
       EdgeProgram program(task_, claim_.knots, fewer.back(), claim_.t_h);
