@@ -27,8 +27,9 @@ void find_near_pairs(const Problem& problem, MotionEvaluator& motion, const Eige
                      std::vector<NearPair>& pairs);
 
 /// The first knot of an evaluated motion with a collision, and the pair of bodies; empty if there
-/// is none. With `at_instants`, then the first other instant that is not given. Checks what is before the instant at
-/// which the motion was lost. Leaves the links at the last checked knot or instant.
+/// is none. With `at_instants`, then the first other instant that is not given. Checks what is
+/// before the instant at which the motion was lost. Leaves the links at the last checked knot or
+/// instant.
 std::string first_collision(const Problem& problem, const MotionEvaluator& motion,
                             const std::vector<Instant>& instants, bool at_instants,
                             Kinematics<double>& kinematics);
