@@ -13,41 +13,12 @@
 #include "maxwrench/wrench_program.h"
 #include "solvers/solve/method.h"
 #include "solvers/wrench/makers.h"
+#include "tests/lib/measure/measure_evaluator.h"
 #include "tests/reference_models/vertices.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
 namespace {
-
-/// One measure at many postures of one problem.
-class Evaluator {
- public:
-  Evaluator(const Problem& problem, const std::string& measure, Wrench wrench,
-            const std::string& lp = "")
-      : model_(problem, false),
-        program_(make_wrench_program(problem, wrench)),
-        measure_(resolve(problem, {problem.name, measure, wrench, lp}).make_measure()) {}
-
-  const Capability& operator()(const Eigen::VectorXd& theta_r, bool efforts = false) {
-    const Posture& posture = model_.evaluate(theta_r);
-    set_posture(posture, program_);
-    measure_->evaluate(posture, program_, efforts, capability_);
-    return capability_;
-  }
-  /// Of the last evaluation, which was at theta_r.
-  Eigen::VectorXd gradient(const Eigen::VectorXd& theta_r) {
-    Eigen::VectorXd gradient;
-    model_.pull_back(theta_r, capability_, gradient);
-    return gradient;
-  }
-  const WrenchProgram& program() const { return program_; }
-
- private:
-  PostureEvaluator model_;
-  WrenchProgram program_;
-  std::unique_ptr<Measure> measure_;
-  Capability capability_;
-};
 
 /// Every closed form, and every measure with every solver that supports the wrench.
 std::vector<Case> all_cases(const std::string& problem) {
@@ -71,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(Planar, EveryMeasure, testing::ValuesIn(all_cases("plan
 /// of curvature f'' differs by h f''.
 void expect_gradients(const Problem& problem, const Case& c, int samples, double tolerance) {
   Random random(7);
-  Evaluator evaluate(problem, c.measure, c.wrench, c.solver);
+  MeasureEvaluator evaluate(problem, c.measure, c.wrench, c.solver);
   const double h = c.solver == "ipopt" ? 1e-4 : 1e-5;
   int kinks = 0;
   for (int sample = 0; sample < samples; ++sample) {
@@ -132,8 +103,8 @@ TEST_P(EveryMeasure, SolversAgreeAndAnswersVerify) {
   const Case& c = GetParam();
   const Problem problem = load_problem("planar/force");
   Random random(5);
-  Evaluator mine(problem, c.measure, c.wrench, c.solver);
-  Evaluator reference(problem, c.measure, c.wrench);
+  MeasureEvaluator mine(problem, c.measure, c.wrench, c.solver);
+  MeasureEvaluator reference(problem, c.measure, c.wrench);
   const bool slow = c.solver == "ipopt";
   for (int sample = 0; sample < samples(slow ? 100 : 2000); ++sample) {
     const Eigen::VectorXd theta_r = random_theta_r(problem, random);
@@ -154,10 +125,10 @@ TEST(Measure, OrderAndBruteForceOnPlanarPostures) {
   // before.
   const Problem problem = load_problem("planar/force");
   Random random(3);
-  Evaluator ellipsoid(problem, "ellipsoid", Wrench::kPure);
-  Evaluator l2(problem, "l2_polytope", Wrench::kPure);
-  Evaluator pure(problem, "linf_polytope", Wrench::kPure);
-  Evaluator any(problem, "linf_polytope", Wrench::kAny);
+  MeasureEvaluator ellipsoid(problem, "ellipsoid", Wrench::kPure);
+  MeasureEvaluator l2(problem, "l2_polytope", Wrench::kPure);
+  MeasureEvaluator pure(problem, "linf_polytope", Wrench::kPure);
+  MeasureEvaluator any(problem, "linf_polytope", Wrench::kAny);
   constexpr double kSlack = 1e-12;
   for (int sample = 0; sample < samples(10000); ++sample) {
     const Eigen::VectorXd theta_r = random_theta_r(problem, random);
@@ -183,7 +154,7 @@ TEST(Measure, OrderUnderGravityAndAsymmetricLimits) {
                                                      {"l2_polytope", Wrench::kPure},
                                                      {"linf_polytope", Wrench::kPure},
                                                      {"linf_polytope", Wrench::kAny}}) {
-      Evaluator evaluate(problem, measure, wrench);
+      MeasureEvaluator evaluate(problem, measure, wrench);
       const Capability& capability = evaluate(theta_r, true);
       if (capability.status != Status::kOptimal) {
         // A larger set cannot be empty when a smaller one was not.
@@ -208,8 +179,8 @@ TEST(Measure, FacetsAndSimplexGiveTheSameVerdictOnRandomRobots) {
     Problem problem = random_problem(random, 4);
     problem.robot.gravity *= random.uniform(0, 6);  // many cannot hold their own weight
     const Eigen::VectorXd theta_r = random_theta_r(problem, random);
-    Evaluator facets(problem, "linf_polytope", Wrench::kPure, "facets");
-    Evaluator simplex(problem, "linf_polytope", Wrench::kPure, "simplex");
+    MeasureEvaluator facets(problem, "linf_polytope", Wrench::kPure, "facets");
+    MeasureEvaluator simplex(problem, "linf_polytope", Wrench::kPure, "simplex");
     const Capability& a = facets(theta_r);
     const Capability& b = simplex(theta_r);
     ASSERT_EQ(to_string(a.status), std::string(to_string(b.status))) << b.reason.c_str();
@@ -219,56 +190,6 @@ TEST(Measure, FacetsAndSimplexGiveTheSameVerdictOnRandomRobots) {
     }
   }
   EXPECT_GT(infeasible, samples(20));
-}
-
-TEST(Measure, EllipsoidIsThePositiveRoot) {
-  // eq:transmissionUVMS along c: a beta^2 + 2 b beta + (g'g - 1) = 0 with a = |K J'c|^2, b = g'K
-  // J'c, written out.
-  Random random(8);
-  for (int sample = 0; sample < 100; ++sample) {
-    Problem problem = random_problem(random, 3);
-    problem.robot.gravity = 0.5;
-    Evaluator evaluate(problem, "ellipsoid", Wrench::kPure);
-    const Capability& capability = evaluate(random_theta_r(problem, random));
-    const Zonotope& set = problem.robot.actuation;
-    const Eigen::VectorXd weight =
-        set.u_min.cwiseAbs().cwiseMin(set.u_max.cwiseAbs()).cwiseInverse();
-    const Eigen::VectorXd column = weight.asDiagonal() * (set.B_pinv * evaluate.program().JtW);
-    const Eigen::VectorXd offset = weight.asDiagonal() * (set.B_pinv * evaluate.program().tau_d);
-    const double a = column.squaredNorm();
-    const double b = column.dot(offset);
-    const double discriminant = b * b - a * (offset.squaredNorm() - 1);
-    if (offset.norm() >= 1) {
-      EXPECT_EQ(capability.status, Status::kInfeasible);
-      continue;
-    }
-    EXPECT_NEAR(capability.beta, (-b + std::sqrt(discriminant)) / a, 1e-9 * (1 + capability.beta));
-  }
-}
-
-/// A weight that takes up all of the ellipsoid, up to rounding: no root of a negative number.
-TEST(Measure, EllipsoidGivesNoNaNOnItsSurface) {
-  Random random(9);
-  int valued = 0;
-  for (int sample = 0; sample < 200; ++sample) {
-    Problem problem = random_problem(random, 3);
-    const Eigen::VectorXd theta_r = random_theta_r(problem, random);
-    const Zonotope& set = problem.robot.actuation;
-    const Eigen::VectorXd weight =
-        set.u_min.cwiseAbs().cwiseMin(set.u_max.cwiseAbs()).cwiseInverse();
-    Evaluator heavy(problem, "ellipsoid", Wrench::kPure);
-    heavy(theta_r);
-    problem.robot.gravity /= (weight.asDiagonal() * (set.B_pinv * heavy.program().tau_d)).norm();
-    for (const Wrench wrench : {Wrench::kPure, Wrench::kAny}) {
-      Evaluator evaluate(problem, "ellipsoid", wrench);
-      const Capability& capability = evaluate(theta_r);
-      EXPECT_FALSE(std::isnan(capability.beta));
-      if (capability.status != Status::kOptimal) continue;
-      EXPECT_GE(capability.beta, -1e-6);
-      ++valued;
-    }
-  }
-  EXPECT_GT(valued, 0);
 }
 
 /// It would pass for the proof that an infeasible capability carries.
@@ -306,7 +227,7 @@ TEST(Measure, UnloadedWrenchIsUnboundedAndDeadRobotInfeasible) {
   Problem problem = load_problem("planar/force");
   problem.c = Vector6d::Unit(3);
   for (const char* lp : {"facets", "simplex"}) {
-    Evaluator evaluate(problem, "linf_polytope", Wrench::kPure, lp);
+    MeasureEvaluator evaluate(problem, "linf_polytope", Wrench::kPure, lp);
     EXPECT_EQ(evaluate(Eigen::Vector2d::Zero()).status, Status::kUnbounded) << lp;
   }
   Random random(10);
@@ -314,7 +235,7 @@ TEST(Measure, UnloadedWrenchIsUnboundedAndDeadRobotInfeasible) {
   for (Thruster& thruster : heavy.robot.thrusters) thruster.force_min = thruster.force_max = 0;
   complete_actuation(heavy.robot);
   for (const char* lp : {"facets", "simplex"}) {
-    Evaluator evaluate(heavy, "linf_polytope", Wrench::kPure, lp);
+    MeasureEvaluator evaluate(heavy, "linf_polytope", Wrench::kPure, lp);
     EXPECT_EQ(evaluate(Eigen::Vector2d::Zero()).status, Status::kInfeasible) << lp;
   }
 }

@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "lib/math/dual.h"
+#include "maxwrench/capability.h"
 #include "maxwrench/load.h"
+#include "maxwrench/posture.h"
 #include "tests/support/support.h"
 
 namespace maxwrench {
