@@ -69,6 +69,33 @@ TEST(CheckRow, AcceptsWhatWasEvaluated) {
   }
 }
 
+/// No column is left out, in a row of each kind: a posture with and without a value, a search,
+/// knots, an experiment.
+TEST(CheckRow, ReadsEachColumn) {
+  const Problem lift = load_problem("uvms/lift"), force = load_problem("planar/force"),
+                arm = load_problem("planar/trajectory");
+  const Case search = with_search(force, {.problem = force.name, .search = "slsqp", .budget = 300});
+  const Case held{.problem = arm.name, .search = ""};
+  const Case reading{.problem = lift.name, .search = "", .integrator = "cvode"};
+  const Case beyond{.problem = lift.name, .search = ""};
+  const std::vector<std::pair<const Problem&, Answer>> answers = {
+      {lift, evaluate(lift, lift.theta_r_default, {beyond})},
+      {force, solve(force, {search})},
+      {arm, evaluate(arm, constant_knots(arm, arm.theta_r_default), {held})},
+      {lift, experiment(lift, {reading})},
+      {lift, evaluate(lift, 2 * lift.theta_r_max, {beyond})}};
+  for (const auto& [problem, answer] : answers) {
+    const Cells good = values(answer);
+    ASSERT_EQ(check(problem, good).rejection, "");
+    for (const std::string& column : value_columns()) {
+      if (column == "problem") continue;  // the reader of a file finds the problem by it
+      Cells row = good;
+      cell(row, column.c_str()) = "-1";
+      EXPECT_NE(check(problem, row).rejection, "") << problem.name << " " << column;
+    }
+  }
+}
+
 /// Each claim by itself: the value, the posture, the efforts, the wrench, the multipliers, how well
 /// they balance, the evaluations. What two measures prove themselves, the others have evaluated.
 TEST(CheckRow, RejectsWhatDoesNotFollow) {
