@@ -90,7 +90,7 @@ struct DependentRows : KnotRows {
 
 /// Two bodies of the robot that are near each other at a knot, or at an instant between knots.
 struct NearPair {
-  int knot = 0;              ///< the knot, from 0; between knots that of the nearest weights
+  int knot = 0;              ///< the knot, from 0; -1 at an instant between knots
   double clearance = 0;      ///< distance less the margin [m]
   Eigen::VectorXd gradient;  ///< derivative of the clearance by theta_r there (r)
   /// Of an instant between knots: theta_r there is the sum of the knots (k) with these weights, and

@@ -12,7 +12,7 @@ namespace {
 constexpr double kNearer = 1e-9;
 
 /// The weights of the knots of a table in theta_r at an instant.
-Eigen::VectorXd weights_at(const SchemeMaps& maps, int instant) {
+auto weights_at(const SchemeMaps& maps, int instant) {
   return maps.P.row(instant).segment(maps.before, maps.rows());
 }
 
@@ -53,17 +53,13 @@ void find_near_pairs(const Problem& problem, MotionEvaluator& motion, const Eige
   motion.visit(Q, [&](int instant, const Eigen::VectorXd& q, const Eigen::MatrixXd& slopes) {
     const bool is_knot = next < end && instant == maps.knot_at[next];
     if (!is_knot && !(at_instants && is_free(maps, instant))) return;
-    const Eigen::VectorXd weights = weights_at(maps, instant);
     kinematics.set_joints(q);
-    int knot = 0;
-    if (is_knot) {
-      knot = static_cast<int>(next++) - maps.before;
-    } else {
-      weights.cwiseAbs().maxCoeff(&knot);
-    }
+    const int knot = is_knot ? static_cast<int>(next++) - maps.before : -1;
     const std::size_t first = pairs.size();
     find_near_pairs(problem, kinematics, knot, within, pairs, slopes);
-    for (std::size_t i = first; !is_knot && i < pairs.size(); ++i) pairs[i].weights = weights;
+    for (std::size_t i = first; !is_knot && i < pairs.size(); ++i) {
+      pairs[i].weights = weights_at(maps, instant);
+    }
   });
 }
 

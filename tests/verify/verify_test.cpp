@@ -205,7 +205,7 @@ class Tampering {
   Random random_;
 };
 
-/// Some 1,000 in all, on seven problems. None of them goes through a file, so no checksum helps.
+/// 680 in all, on seven problems. None of them goes through a file, so no checksum helps.
 TEST(Verify, RejectsFalseProofs) {
   const auto reject_all = [](const WrittenProof& at, int count) {
     ASSERT_EQ(at.rejection(at.proof), "");

@@ -141,10 +141,11 @@ bool tighten_limits(const Problem& task, const Eigen::MatrixXd& knots, double& w
   if (depth > kTouching) {
     exceeds = true;
     tight.motion->clear_at_instants = true;
-  }
-  if (depth > kTouching && deepest_collision(model, tight.motion->instants_per_interval) <= wider) {
-    wider = std::max(2 * wider, depth * kMoreThanDepth);
-    tight.robot.collision = std::make_shared<WiderMargin>(task.robot.collision, wider);
+    // The search keeps bodies apart at its instants; between them only a wider margin does.
+    if (deepest_collision(model, tight.motion->instants_per_interval) <= kTouching) {
+      wider = std::max(2 * wider, depth * kMoreThanDepth);
+      tight.robot.collision = std::make_shared<WiderMargin>(task.robot.collision, wider);
+    }
   }
   return exceeds && possible && (tight.theta_r_min.array() <= tight.theta_r_max.array()).all();
 }
