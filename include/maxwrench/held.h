@@ -30,7 +30,7 @@ struct HeldTrajectory : Verdict {
   double share = std::numeric_limits<double>::quiet_NaN();
   /// The reading along c, of a path its least, of an impulse that at its peak [N, N m].
   double reading = std::numeric_limits<double>::quiet_NaN();
-  /// The reading of the best of the first trajectories, which `solve` plans; NaN: none is held.
+  /// The reading of the best of the first trajectories; NaN: none is held.
   double first = std::numeric_limits<double>::quiet_NaN();
   long simulations = 0;  ///< number of experiments
   std::string stopped;   ///< why the search ended
@@ -45,9 +45,11 @@ struct HeldTrajectory : Verdict {
 ///
 ///     max reading(knots, share)   subject to   the experiment is held (`TankSummary::held`).
 ///
-/// The first trajectories are those that `solve` finds with and without the lag of the tank's
-/// thrusters. Of the better one the planned wrench rises while the reading does; then CMA-ES moves
-/// all knots, in the null space of the equations that the scheme may have, and the planned wrench.
+/// The first trajectories are those that `solve_proven` finds with and without the lag of the
+/// tank's thrusters, because the tank holds none that exceeds a limit between its instants. Of a
+/// task that proofs do not support, they are those of `solve`. Of the better one the planned wrench
+/// rises while the reading does. Then CMA-ES moves all knots, in the null space of the equations
+/// that the scheme may have, and the planned wrench.
 ///
 /// @param task     a task in time with one wrench along c
 /// @param options  wrench, solver, search and budget of the first trajectories, seed and callbacks;

@@ -47,8 +47,9 @@ py::object solve_task_held(const py::object& task, long simulations, const std::
 constexpr const char* kSolveHeld =
     R"(Searches for the trajectory with the largest reading that the virtual tank holds.
 
-It starts at the trajectories that ``solve`` plans with and without the lag of the tank's thrusters,
-and moves the knots and the planned wrench. Each evaluation is an experiment.
+It starts at the best trajectories that can be proven, with and without the lag of the tank's
+thrusters, and moves the knots and the planned wrench. Of a task that proofs do not support, it
+starts at those of ``solve``. Each evaluation is an experiment.
 
 Args:
     task: a Task in time with one wrench along c, or the name of one.

@@ -15,8 +15,10 @@
 #include "maxwrench/search.h"
 #include "maxwrench/strategies.h"
 #include "maxwrench/trajectory.h"
+#include "maxwrench/trajectory_proof.h"
 #include "solvers/solve/method.h"
 #include "solvers/solve/tank.h"
+#include "verify/trajectory/provable.h"
 
 namespace maxwrench {
 namespace {
@@ -157,6 +159,15 @@ class HeldObjective final : public Objective {
   Verdict verdict_;
 };
 
+/// The best trajectory that is found. The tank holds none that exceeds a limit between the instants
+/// of a search, so it is one that is proven to keep them all, where proofs support the task.
+Answer planned_trajectory(const Problem& task, const Options& options) {
+  const bool provable = options.wrench == Wrench::kPure &&
+                        usual_interpolation(task) == Interpolation::kSpline &&
+                        why_unprovable(task).empty();
+  return provable ? solve_proven(task, options).answer : solve(task, options);
+}
+
 /// A trajectory with the share that is held, and its experiment.
 struct First {
   Eigen::VectorXd knots;
@@ -211,7 +222,7 @@ class HeldSearch {
     quiet.progress = {};
     for (const Problem* planned : {&std::as_const(task_), &plain_}) {
       if (planned == &plain_ && plain_.motion->thruster_lag == task_.motion->thruster_lag) break;
-      const Answer plan = solve(*planned, quiet);
+      const Answer plan = planned_trajectory(*planned, quiet);
       if (!plan.has_posture()) continue;
       First first = try_shares(experimenter, evaluator, stacked(plan.trajectory.knots), held);
       if (best.knots.size() == 0 || first.reading > best.reading) best = std::move(first);

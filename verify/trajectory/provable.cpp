@@ -36,15 +36,14 @@ bool gear_moves(const Problem& problem) {
   return false;
 }
 
-[[noreturn]] void throw_unprovable(const Problem& problem, const char* got, const char* expected) {
-  throw std::invalid_argument(problem.name + ": got " + got + ", expected " + expected +
-                              " for a proof in time");
+std::string unprovable(const Problem& problem, const char* got, const char* expected) {
+  return problem.name + ": got " + got + ", expected " + expected + " for a proof in time";
 }
 
 }  // namespace
 
-void require_provable(const Problem& problem) {
-  if (!problem.motion) throw_unprovable(problem, "a static task", "a trajectory or an impulse");
+std::string why_unprovable(const Problem& problem) {
+  if (!problem.motion) return unprovable(problem, "a static task", "a trajectory or an impulse");
   const MotionTask& task = *problem.motion;
   const bool open_start = task.impulse && task.start == Start::kZero;
   const bool moves = task.k + (task.impulse ? 1 : 0) >= 2;
@@ -69,18 +68,26 @@ void require_provable(const Problem& problem) {
        {"actuators that do not reach all generalised forces", "B of full row rank"}},
   };
   for (const auto& [refused, words] : cases) {
-    if (refused) throw_unprovable(problem, words[0], words[1]);
+    if (refused) return unprovable(problem, words[0], words[1]);
   }
+  return {};
+}
+
+void require_provable(const Problem& problem) {
+  const std::string why = why_unprovable(problem);
+  if (!why.empty()) throw std::invalid_argument(why);
 }
 
 void require_provable_task(const Problem& problem) {
   const ScenarioList& list = problem.scenarios;
   if (list.empty()) return require_provable(problem);
   for (const ScenarioWrench& wrench : list.wrenches) {
-    if (wrench.hold) throw_unprovable(problem, "wrench.hold", "a wrench in each scenario");
+    if (!wrench.hold) continue;
+    throw std::invalid_argument(unprovable(problem, "wrench.hold", "a wrench in each scenario"));
   }
   if (list.ball || list.payload || !list.loads.empty()) {
-    throw_unprovable(problem, "a ball, a payload or uncertain loads", "wrenches and limits");
+    throw std::invalid_argument(
+        unprovable(problem, "a ball, a payload or uncertain loads", "wrenches and limits"));
   }
   Problem alone = problem;
   alone.scenarios = {};
