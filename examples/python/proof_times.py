@@ -15,20 +15,35 @@ import maxwrench as mw
 import numpy as np
 
 GEN3 = pathlib.Path(__file__).parents[2] / "problems" / "gallery" / "gen3"
+DRAWS = 1000  # of which one must hold its own weight
 COLUMNS = ("pose", "beta", "bound", "gap", "boxes", "status", "search_s", "proof_s")
+
+
+def chain(robot):
+    """The joints between base and tool, as indices."""
+    joints, link = [], robot.end_effector_links[0]
+    while link > 0:
+        joints.insert(0, link - 1)
+        link = robot.parents[link - 1]
+    return joints
 
 
 def drawn_task(robot, c, rng):
     """A task at the pose of a random posture."""
-    lower, upper = np.maximum(robot.q_min, -np.pi), np.minimum(robot.q_max, np.pi)
-    while True:
-        joints = dict(zip(robot.joint_names, rng.uniform(lower, upper)))
+    moved = chain(robot)
+    lower, upper = np.maximum(robot.q_min[moved], -np.pi), np.minimum(robot.q_max[moved], np.pi)
+    for _ in range(DRAWS):
+        joints = dict(zip([robot.joint_names[i] for i in moved], rng.uniform(lower, upper)))
         try:
             task = mw.Static(robot, c=c, joints=joints)
-        except ValueError:  # such as a pose at which the arm is singular
+        except ValueError as error:  # such as a pose at which the arm is singular
+            why = str(error)
             continue
-        if mw.evaluate(task, task.theta_r_default).has_value:
+        answer = mw.evaluate(task, task.theta_r_default)
+        if answer.has_value:
             return task
+        why = answer.reason
+    raise SystemExit(f"{robot.name}: none of {DRAWS} drawn postures holds its own weight; the last one: {why}")
 
 
 def main():

@@ -11,28 +11,35 @@ namespace {
 
 constexpr std::size_t kMostAdded = 8;
 constexpr double kWide = 1e3;
+/// A limit of the values is of use if it is at most this times their scale.
+constexpr double kMostUseful = 1e6;
 
 }  // namespace
 
 void PointValues::set_ends(double low, double high) {
+  low_ = low;
   least_t_ = std::isfinite(low) ? low : std::min(-kWide, -2 * std::abs(high));
   if (!std::isfinite(least_t_)) least_t_ = -kWide;
-  most_t_ = std::isfinite(high) ? high : kWide * std::max(1.0, std::abs(least_t_));
+  scale_ = std::max(1.0, std::abs(least_t_));
+  most_is_limit_ = std::isfinite(high);
+  most_t_ = most_is_limit_ ? high : kWide * scale_;
 }
 
+bool PointValues::is_useful(double limit) const { return limit <= kMostUseful * scale_; }
+
 double PointValues::bound(double s, const Eigen::VectorXd& g, const Eigen::VectorXd& h, double off,
-                          double off_a, double low, double high) {
+                          double off_a) {
   const double T = std::max(std::abs(least_t_), std::abs(most_t_));
   const Eigen::Index size = g.size();
   at_.resize(2 * size);
   at_.head(size) = least_t_ * (1 - h.array()) - g.array();
   at_.tail(size) = most_t_ * (1 - h.array()) - g.array();
   double U = kInfinity;
-  if (std::isfinite(low) && std::isfinite(high)) {
+  if (std::isfinite(low_) && most_is_limit_) {
     U = s + at_.maxCoeff() + off + T * (off_a + kBoundRounding);
   }
   // t <= (s - g)/h by convexity, where h > 0 at all points.
-  if (U > low && h.minCoeff() > 2 * off_a) {
+  if (U > low_ && h.minCoeff() > 2 * off_a) {
     const double ratio =
         ((s + off - g.array()) / (h.array() - (s + off - g.array()).sign() * off_a)).maxCoeff();
     U = std::min(U, ratio + 1e-14 * std::abs(ratio));

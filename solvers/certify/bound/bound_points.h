@@ -16,17 +16,21 @@ class PointValues {
   void set_ends(double low, double high);
   double least_t() const { return least_t_; }
   double most_t() const { return most_t_; }
+  /// Whether a limit of the values is so small that rounding errors of a program with it, which
+  /// grow with it, spoil no bounds.
+  bool is_useful(double limit) const;
 
-  /// U = s + the largest value, rounding included; without finite `low` and `high`, and where it is
-  /// less, the largest (s - g_v)/h_v. The rounding errors of s, g and h are at most `off` and
+  /// U = s + the largest value, rounding included, if `low` and `high` are finite; else, and where
+  /// it is less, the largest (s - g_v)/h_v. The rounding errors of s, g and h are at most `off` and
   /// `off_a`.
   double bound(double s, const Eigen::VectorXd& g, const Eigen::VectorXd& h, double off,
-               double off_a, double low, double high);
+               double off_a);
   /// The values, first all with least_t.
   const Eigen::VectorXd& at() const { return at_; }
 
  private:
-  double least_t_ = 0, most_t_ = 0;
+  double low_ = 0, least_t_ = 0, most_t_ = 0, scale_ = 1;
+  bool most_is_limit_ = false;
   Eigen::VectorXd at_;
 };
 

@@ -90,7 +90,7 @@ class FreeBound final : public Bound {
     const double share = kBoundRounding * kMostSpread;
     const double off =
         share * (sizes_.dot(model_->tau + free_.sizes()) + nu_.cwiseAbs().dot(model_->f));
-    return values_.bound(0, box_.g(), box_.h(), off, share * sizes_.dot(model_->a), low_, high_);
+    return values_.bound(0, box_.g(), box_.h(), off, share * sizes_.dot(model_->a));
   }
 
   void improve_by_rounds(double low, BoxProof& proof) {

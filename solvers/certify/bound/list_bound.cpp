@@ -58,11 +58,11 @@ class ListBound final : public Bound {
     }
     values_.set_ends(low, high);
     multiplier_.read(proof.multiplier);
-    take(value(low, high), proof);
+    take(value(), proof);
     if (proof.high <= low) return;
     if (first_.m > 0) linear_.precondition(lower, upper);
     rank_ = std::min<Eigen::Index>(linear_.rank(), most_rank_);
-    improve_by_rounds(low, high, proof);
+    improve_by_rounds(low, proof);
   }
 
   std::unique_ptr<Bound> clone() const override { return std::make_unique<ListBound>(model_); }
@@ -108,7 +108,7 @@ class ListBound final : public Bound {
   }
 
   /// U of the multiplier, rounding included. Leaves the violations in values_.
-  double value(double low, double high) {
+  double value() {
     lambda_.setZero(model_->n(), model_->loads());
     slopes_.setZero(model_->n(), model_->axes());
     double off = multiplier_.nu.cwiseAbs().dot(first_.f), off_a = 0;
@@ -131,7 +131,7 @@ class ListBound final : public Bound {
     const double share = kBoundRounding * kMostSpread;
     // A value t may be below the lower end of another scenario by kEndTolerance (1 + |t|).
     off = supports + share * off + kEndTolerance * off_a;
-    return values_.bound(s_, g_, h_, off, (share + kEndTolerance) * off_a, low, high);
+    return values_.bound(s_, g_, h_, off, (share + kEndTolerance) * off_a);
   }
 
   /// g and h at all control points.
@@ -152,7 +152,7 @@ class ListBound final : public Bound {
 
   // Rounds.
 
-  void improve_by_rounds(double low, double high, BoxProof& proof) {
+  void improve_by_rounds(double low, BoxProof& proof) {
     begin(proof.basis);
     const double least_t = values_.least_t();
     double before = kInfinity;
@@ -160,7 +160,7 @@ class ListBound final : public Bound {
       const double least =
           program().solve(least_t - kBelow * std::abs(least_t), kMostSteps, local_, solved_);
       gather(solved_);
-      take(value(low, high), proof);
+      take(value(), proof);
       if (proof.high <= low) break;
       const double now = s_ + values_.at().maxCoeff();
       const bool close =

@@ -84,30 +84,35 @@ class PureBound final : public Bound {
     if (proof.multiplier.size() == rows + model_->m) {
       lambda_ = proof.multiplier.head(rows);
       nu_ = proof.multiplier.tail(model_->m);
-      take(value(low, high), proof);
+      take(value(), proof);
       if (proof.high <= low) return;
     } else {
       lambda_.setZero(rows);
       nu_.setZero(model_->m);
-      value(low, high);
+      value();
     }
     if (model_->m > 0) linear_.precondition(lower, upper);
     rows_used_ = model_->size > kFew ? equation_rows_
                                      : std::min<Eigen::Index>(linear_.rank(), equation_rows_);
-    if (ellipsoid_) aim(lower, upper, low, high, proof);
+    if (ellipsoid_) aim(lower, upper, low, proof);
     if (proof.high <= low || entries_.size() == 0) return;
-    improve_by_rounds(low, high, proof);
-    if (proof.high == kInfinity && found_by_program()) try_rows(low, high, proof);
+    improve_by_rounds(low, proof);
+    if (values_.is_useful(proof.high) || !found_by_program()) return;
+    if (std::isfinite(high)) {
+      values_.set_ends(low, kInfinity);
+      improve_by_rounds(low, proof);
+    }
+    if (!values_.is_useful(proof.high)) try_rows(proof);
   }
 
   /// Where no value is known to be too large, the program can end at a nu so large that its
   /// rounding spoils any bound. One row alone bounds the value where its entry of a has one sign.
-  void try_rows(double low, double high, BoxProof& proof) {
+  void try_rows(BoxProof& proof) {
     nu_.setZero(model_->m);
     for (Eigen::Index row = 0; row < rows(); ++row) {
       for (const double sign : {1.0, -1.0}) {
         lambda_ = sign * Eigen::VectorXd::Unit(rows(), row);
-        take(value(low, high), proof);
+        take(value(), proof);
       }
     }
   }
@@ -142,12 +147,12 @@ class PureBound final : public Bound {
   }
 
   /// Also sets the initial U, without nu.
-  void aim(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
+  void aim(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low,
            BoxProof& proof) {
     box_.evaluate((lower + upper) / 2);
     ellipsoid_->aim(box_.tau(), box_.a(), low, lambda_);
     nu_.setZero();
-    take(value(low, high), proof);
+    take(value(), proof);
   }
 
   void take(double U, BoxProof& proof) {
@@ -157,7 +162,7 @@ class PureBound final : public Bound {
   }
 
   /// U(lambda, nu), rounding included. Leaves the violations in at_.
-  double value(double low, double high) {
+  double value() {
     const double s = ellipsoid_ ? ellipsoid_->of(lambda_) : support_.of(lambda_);
     if (by_effort()) {
       reach_.noalias() = K_.transpose() * lambda_;
@@ -176,10 +181,10 @@ class PureBound final : public Bound {
       off += share * lambda_.cwiseAbs().dot(thrust_->sizes());
     }
     s_ = s;
-    return values_.bound(s, box_.g(), box_.h(), off, off_a, low, high);
+    return values_.bound(s, box_.g(), box_.h(), off, off_a);
   }
 
-  void improve_by_rounds(double low, double high, BoxProof& proof) {
+  void improve_by_rounds(double low, BoxProof& proof) {
     rounds_.begin(proof.basis, *model_, values_.at());
     const double least_t = values_.least_t();
     for (int round = 0; round < kMostRounds; ++round) {
@@ -189,7 +194,7 @@ class PureBound final : public Bound {
       for (const int row : model_->dropped) lambda_[row] = 0;
       nu_.noalias() =
           linear_.M().topRows(rows_used_).transpose() * solved_.segment(free_rows(), rows_used_);
-      take(value(low, high), proof);
+      take(value(), proof);
       if (proof.high <= low) break;
       const double now = s_ + values_.at().maxCoeff();
       const bool finite = std::isfinite(proof.high);

@@ -117,7 +117,7 @@ class InstantBound final : public Bound {
     values_.set_ends(low, high);
     lambda_ = proof.multiplier;
     if (lambda_.size() != model_->n()) lambda_.setZero(model_->n());
-    improve(low, high, proof);
+    improve(low, proof);
     proof.axis = cut >= 0 || proof.high <= low ? cut : axis_of(lower, upper);
   }
 
@@ -190,7 +190,7 @@ class InstantBound final : public Bound {
   }
 
   /// U(lambda), rounding included.
-  double value(double low, double high) {
+  double value() {
     const Eigen::Index n = model_->n();
     reach(P_, g_);
     g_ = -g_;
@@ -206,14 +206,14 @@ class InstantBound final : public Bound {
     const double share = kBoundRounding * kMostSpread;
     off += share * lambda_.cwiseAbs().dot(model_->tau);
     const double off_a = share * lambda_.cwiseAbs().dot(model_->a);
-    return values_.bound(s_, g_, h_, off, off_a, low, high);
+    return values_.bound(s_, g_, h_, off, off_a);
   }
 
-  void improve(double low, double high, BoxProof& proof) {
+  void improve(double low, BoxProof& proof) {
     points_ = 0;
     double least = -kInfinity;
     for (int round = 0;; ++round) {
-      proof.improve(value(low, high), lambda_);
+      proof.improve(value(), lambda_);
       if (proof.high <= low || round == kMostRounds) return;
       const double now = s_ + values_.at().maxCoeff();
       if (now - least <= kClose * std::max(proof.high - values_.least_t(), 0.0)) return;
