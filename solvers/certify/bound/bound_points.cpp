@@ -10,9 +10,8 @@ namespace maxwrench {
 namespace {
 
 constexpr std::size_t kMostAdded = 8;
+/// Without a limit, the program considers values up to this times the scale of those known.
 constexpr double kWide = 1e3;
-/// A limit of the values is of use if it is at most this times their scale.
-constexpr double kMostUseful = 1e6;
 
 }  // namespace
 
@@ -25,7 +24,7 @@ void PointValues::set_ends(double low, double high) {
   most_t_ = most_is_limit_ ? high : kWide * scale_;
 }
 
-bool PointValues::is_useful(double limit) const { return limit <= kMostUseful * scale_; }
+bool PointValues::is_useful(double limit) const { return limit <= kWide * scale_; }
 
 double PointValues::bound(double s, const Eigen::VectorXd& g, const Eigen::VectorXd& h, double off,
                           double off_a) {

@@ -16,8 +16,7 @@ class PointValues {
   void set_ends(double low, double high);
   double least_t() const { return least_t_; }
   double most_t() const { return most_t_; }
-  /// Whether a limit of the values is so small that rounding errors of a program with it, which
-  /// grow with it, spoil no bounds.
+  /// Whether a limit of the values is small enough for the program.
   bool is_useful(double limit) const;
 
   /// U = s + the largest value, rounding included, if `low` and `high` are finite; else, and where

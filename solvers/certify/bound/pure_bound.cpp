@@ -98,7 +98,7 @@ class PureBound final : public Bound {
     if (proof.high <= low || entries_.size() == 0) return;
     improve_by_rounds(low, proof);
     if (values_.is_useful(proof.high) || !found_by_program()) return;
-    if (std::isfinite(high)) {
+    if (std::isfinite(high)) {  // rounding errors of a program with it spoil bounds
       values_.set_ends(low, kInfinity);
       improve_by_rounds(low, proof);
     }

@@ -167,6 +167,35 @@ TEST(LoopBound, IsFiniteAtASingularPosture) {
   EXPECT_LE(proof.high, 2 * 330 / 0.92);
 }
 
+/// A large box can have a multiplier that bounds its values by rounding alone. The parts of the box
+/// have bounds of use all the same.
+TEST(LoopBound, SurvivesALimitThatIsTooLargeToBeOfUse) {
+  for (const char* name : {"gallery/gen3/push", "gallery/gen3/lift", "gallery/ur10/lift"}) {
+    const Problem problem = load_problem(name);
+    const auto bound = make_capability_bound(problem, "linf_polytope", Wrench::kPure);
+    PostureSource source(problem, "linf_polytope");
+    Random random(3);
+    int seen = 0;
+    for (int sample = 0; sample < samples(100); ++sample) {
+      const ValuedPosture* const at = source.draw(random);
+      if (at == nullptr) continue;
+      const double low = at->value, useful = 1e4 * (1 + std::abs(low));
+      const auto box = [&](double size, double high, BoxProof& proof) {
+        bound->evaluate(at->x.array() - size, at->x.array() + size, low, high, proof);
+      };
+      BoxProof without, with, parts;
+      box(0.3, kInfinity, without);
+      box(0.3, 1e19, with);
+      for (const double size : {1.2, 0.6, 0.3}) box(size, 1e19, parts);
+      if (!(without.high < useful)) continue;
+      EXPECT_LT(with.high, useful) << name;
+      EXPECT_LT(parts.high, useful) << name;
+      ++seen;
+    }
+    EXPECT_GT(seen, 0) << name;
+  }
+}
+
 TEST(LoopBound, IsNoCeilingOfWhatBracesItself) {
   const Problem problem = braced();
   test_pairs(problem, "linf_polytope");
