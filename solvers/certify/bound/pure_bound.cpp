@@ -98,12 +98,14 @@ class PureBound final : public Bound {
     if (proof.high <= low || entries_.size() == 0) return;
     improve_by_rounds(low, proof);
     if (values_.is_useful(proof.high) || !found_by_program()) return;
-    values_.widen();
-    improve_by_rounds(low, proof);
+    if (std::isfinite(high)) {  // rounding errors of a program with it spoil bounds
+      values_.set_ends(low, kInfinity);
+      improve_by_rounds(low, proof);
+    }
     if (!values_.is_useful(proof.high)) try_rows(proof);
   }
 
-  /// Where no useful limit of the values is known, the program can end at a nu so large that its
+  /// Where no value is known to be too large, the program can end at a nu so large that its
   /// rounding spoils any bound. One row alone bounds the value where its entry of a has one sign.
   void try_rows(BoxProof& proof) {
     nu_.setZero(model_->m);
@@ -156,7 +158,7 @@ class PureBound final : public Bound {
   void take(double U, BoxProof& proof) {
     both_.resize(lambda_.size() + nu_.size());
     both_ << lambda_, nu_;
-    if (values_.is_useful(U)) proof.improve(U, both_);
+    proof.improve(U, both_);
   }
 
   /// U(lambda, nu), rounding included. Leaves the violations in at_.
