@@ -46,10 +46,10 @@ struct HeldTrajectory : Verdict {
 ///     max reading(knots, share)   subject to   the experiment is held (`TankSummary::held`).
 ///
 /// The first trajectories are those that `solve_proven` finds with and without the lag of the
-/// tank's thrusters, because the tank holds none that exceeds a limit between its instants. Of a
-/// task that proofs do not support, they are those of `solve`. Of the better one the planned wrench
-/// rises while the reading does. Then CMA-ES moves all knots, in the null space of the equations
-/// that the scheme may have, and the planned wrench.
+/// tank's thrusters, because the tank holds none whose joints are too fast between its instants. Of
+/// a task that proofs do not support, they are those of `solve`. Of the better one the planned
+/// wrench rises while the reading does. Then CMA-ES moves all knots, in the null space of the
+/// equations that the scheme may have, and the planned wrench.
 ///
 /// @param task     a task in time with one wrench along c
 /// @param options  wrench, solver, search and budget of the first trajectories, seed and callbacks;

@@ -159,8 +159,8 @@ class HeldObjective final : public Objective {
   Verdict verdict_;
 };
 
-/// The best trajectory that is found. The tank holds none that exceeds a limit between the instants
-/// of a search, so it is one that is proven to keep them all, where proofs support the task.
+/// The best trajectory that is found. The tank holds none whose joints are too fast between the
+/// instants of a search, so it is a proven one, where proofs support the task.
 Answer planned_trajectory(const Problem& task, const Options& options) {
   const bool provable = options.wrench == Wrench::kPure &&
                         usual_interpolation(task) == Interpolation::kSpline &&
@@ -222,6 +222,7 @@ class HeldSearch {
     quiet.progress = {};
     for (const Problem* planned : {&std::as_const(task_), &plain_}) {
       if (planned == &plain_ && plain_.motion->thruster_lag == task_.motion->thruster_lag) break;
+      if (interrupted()) break;
       const Answer plan = planned_trajectory(*planned, quiet);
       if (!plan.has_posture()) continue;
       First first = try_shares(experimenter, evaluator, stacked(plan.trajectory.knots), held);

@@ -12,19 +12,23 @@ namespace {
 constexpr std::size_t kMostAdded = 8;
 /// Without a limit, the program considers values up to this times the scale of those known.
 constexpr double kWide = 1e3;
+/// A limit of the values is of use if it is at most this times their scale.
+constexpr double kMostUseful = 1e6;
 
 }  // namespace
 
 void PointValues::set_ends(double low, double high) {
   low_ = low;
-  least_t_ = std::isfinite(low) ? low : std::min(-kWide, -2 * std::abs(high));
-  if (!std::isfinite(least_t_)) least_t_ = -kWide;
-  scale_ = std::max(1.0, std::abs(least_t_));
-  most_is_limit_ = std::isfinite(high);
+  scale_ = std::isfinite(low) ? std::max(1.0, std::abs(low)) : kWide;
+  most_is_limit_ = is_useful(high);
   most_t_ = most_is_limit_ ? high : kWide * scale_;
+  least_t_ = std::isfinite(low) ? low : -kWide;
+  if (!std::isfinite(low) && most_is_limit_) {
+    least_t_ = std::min(least_t_, -2 * std::abs(high));
+  }
 }
 
-bool PointValues::is_useful(double limit) const { return limit <= kWide * scale_; }
+bool PointValues::is_useful(double limit) const { return limit <= kMostUseful * scale_; }
 
 double PointValues::bound(double s, const Eigen::VectorXd& g, const Eigen::VectorXd& h, double off,
                           double off_a) {

@@ -12,16 +12,17 @@ namespace maxwrench {
 class PointValues {
  public:
   /// For values in [low, high], which may be infinite: numbers that the program can use in place of
-  /// infinite ones.
+  /// infinite ones, and of a `high` that is not useful.
   void set_ends(double low, double high);
   double least_t() const { return least_t_; }
   double most_t() const { return most_t_; }
-  /// Whether a limit of the values is small enough for the program.
+  /// Whether a limit of the values is in proportion to the known ones. A larger one follows from
+  /// rounding alone: it spoils programs, and an exact check does not find it again.
   bool is_useful(double limit) const;
 
-  /// U = s + the largest value, rounding included, if `low` and `high` are finite; else, and where
-  /// it is less, the largest (s - g_v)/h_v. The rounding errors of s, g and h are at most `off` and
-  /// `off_a`.
+  /// U = s + the largest value, rounding included, if `low` is finite and `high` useful; else, and
+  /// where it is less, the largest (s - g_v)/h_v. The rounding errors of s, g and h are at most
+  /// `off` and `off_a`.
   double bound(double s, const Eigen::VectorXd& g, const Eigen::VectorXd& h, double off,
                double off_a);
   /// The values, first all with least_t.

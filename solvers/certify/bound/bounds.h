@@ -36,7 +36,8 @@ inline constexpr double kCeilingMargin = 1;
 /// If the base follows in closed form, x is theta_r, and there are no equations. The lambda and nu
 /// with the least U are used. In sign, lambda is minus the multiplier of the lower level. The
 /// multiplier is [lambda; nu]. Where lambda'a_v > 0 at all control points, the largest
-/// (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v is also a bound.
+/// (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v is also a bound. Where no useful bound is found,
+/// a nu with nu'f_v > 0 at all control points, with lambda = 0, proves that the box has no posture.
 ///
 /// The convex set of linf_polytope is {B u}. For l2_polytope the program is the same with (I, B^+
 /// a, B^+ tau). The ellipsoid is |W_u B^+ tau| <= 1, with lambda from the centre of the box.

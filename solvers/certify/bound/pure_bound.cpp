@@ -97,15 +97,33 @@ class PureBound final : public Bound {
     if (ellipsoid_) aim(lower, upper, low, proof);
     if (proof.high <= low || entries_.size() == 0) return;
     improve_by_rounds(low, proof);
-    if (values_.is_useful(proof.high) || !found_by_program()) return;
-    if (std::isfinite(high)) {  // rounding errors of a program with it spoil bounds
-      values_.set_ends(low, kInfinity);
-      improve_by_rounds(low, proof);
-    }
-    if (!values_.is_useful(proof.high)) try_rows(proof);
+    if (values_.is_useful(proof.high) || exclude(proof)) return;
+    if (found_by_program()) try_rows(proof);
   }
 
-  /// Where no value is known to be too large, the program can end at a nu so large that its
+  /// Looks for a nu with nu'f > 0 at all control points: then the box has no posture, whatever t
+  /// is.
+  bool exclude(BoxProof& proof) {
+    excluding_ = true;
+    bool excluded = false;
+    lambda_.setZero();
+    rounds_.begin({}, *model_, values_.at());
+    for (int round = 0; round < kMostRounds && !excluded; ++round) {
+      const double least = program_.solve(-1, kMostSteps, rounds_.columns(), solved_);
+      if (least > -1) break;
+      set_nu();
+      value();
+      const double off = kBoundRounding * kMostSpread * nu_.cwiseAbs().dot(model_->f);
+      excluded = box_.g().minCoeff() > off;
+      below_ = -box_.g();
+      if (!excluded && !rounds_.add(below_, least)) break;
+    }
+    excluding_ = false;
+    if (excluded) take(-kInfinity, proof);
+    return excluded;
+  }
+
+  /// Where no useful limit of the values is known, the program can end at a nu so large that its
   /// rounding spoils any bound. One row alone bounds the value where its entry of a has one sign.
   void try_rows(BoxProof& proof) {
     nu_.setZero(model_->m);
@@ -158,7 +176,7 @@ class PureBound final : public Bound {
   void take(double U, BoxProof& proof) {
     both_.resize(lambda_.size() + nu_.size());
     both_ << lambda_, nu_;
-    proof.improve(U, both_);
+    if (values_.is_useful(U)) proof.improve(U, both_);
   }
 
   /// U(lambda, nu), rounding included. Leaves the violations in at_.
@@ -192,16 +210,21 @@ class PureBound final : public Bound {
                                           rounds_.columns(), solved_);
       if (!ellipsoid_) lambda_ = solved_.head(rows());
       for (const int row : model_->dropped) lambda_[row] = 0;
-      nu_.noalias() =
-          linear_.M().topRows(rows_used_).transpose() * solved_.segment(free_rows(), rows_used_);
+      set_nu();
       take(value(), proof);
       if (proof.high <= low) break;
       const double now = s_ + values_.at().maxCoeff();
-      const bool finite = std::isfinite(proof.high);
-      if (finite && now - least <= kClose * std::max(proof.high - least_t, 0.0)) break;
+      const bool useful = values_.is_useful(proof.high);
+      if (useful && now - least <= kClose * std::max(proof.high - least_t, 0.0)) break;
       if (!rounds_.add(values_.at(), least - s_)) break;
     }
     proof.basis = rounds_.basis();
+  }
+
+  /// The nu of the program's solution.
+  void set_nu() {
+    nu_.noalias() =
+        linear_.M().topRows(rows_used_).transpose() * solved_.segment(free_rows(), rows_used_);
   }
 
   void write_point(Eigen::Index i, Eigen::Index id) {
@@ -219,6 +242,10 @@ class PureBound final : public Bound {
       entries_.head(rows).noalias() = K_ * load_;
     } else {
       entries_.head(rows) = load_;
+    }
+    if (excluding_) {
+      cost = 0;
+      entries_.head(rows).setZero();
     }
     entries_.tail(equation_rows_).setZero();
     entries_.segment(rows, rows_used_).noalias() = linear_.M().topRows(rows_used_) * box_.f();
@@ -249,7 +276,8 @@ class PureBound final : public Bound {
   PointValues values_;
   ProgramRounds rounds_;
   double s_ = 0;
-  Eigen::VectorXd lambda_, nu_, solved_, both_, reach_, sizes_, entries_, load_;
+  bool excluding_ = false;  ///< the program's points are those of nu'f alone
+  Eigen::VectorXd lambda_, nu_, solved_, both_, reach_, sizes_, entries_, load_, below_;
 };
 
 }  // namespace

@@ -80,7 +80,7 @@ TEST(SolveHeld, SLOW_AnInterruptionKeepsWhatIsHeld) {
 }
 
 /// What `solve` finds moves a joint too fast between its instants, so no share of its wrench is
-/// held. What is proven with the lag is held: 0.5 % less than it is requested.
+/// held. What is proven with the lag is held; the tank asks for 0.5 % less of it.
 TEST(SolveHeld, SLOW_StartsAtATrajectoryThatHoldsBetweenItsInstants) {
   Problem task = load_problem("uvms/valve_impulse");
   HeldOptions how;

@@ -5,6 +5,7 @@
 
 #include "maxwrench/bound.h"
 #include "maxwrench/load.h"
+#include "solvers/certify/bound/loop_model.h"
 #include "tests/support/loops.h"
 
 namespace maxwrench {
@@ -193,6 +194,45 @@ TEST(LoopBound, SurvivesALimitThatIsTooLargeToBeOfUse) {
       ++seen;
     }
     EXPECT_GT(seen, 0) << name;
+  }
+}
+
+/// f(x) of a model, m.
+Eigen::VectorXd equations_at(const LoopModel& model, const Eigen::VectorXd& x) {
+  Eigen::VectorXd f = Eigen::VectorXd::Zero(model.m);
+  for (const LoopPart& part : model.parts) {
+    if (part.kind == LoopPart::Kind::kEquations) f(part.rows) += part.f.evaluate(x);
+  }
+  return f;
+}
+
+/// Where the equations alone exclude a box, lambda is zero, and nu'f is positive all over the box.
+TEST(LoopBound, ExcludesBoxesWithoutAPosture) {
+  constexpr double kWidth = 0.3;
+  for (const char* name : {"gallery/gen3/lift", "fixed/push", "mobile/push"}) {
+    const Problem problem = load_problem(name);
+    const LoopModel model(problem);
+    const LoopCoordinates& all = model.coordinates;
+    const auto bound = make_capability_bound(problem, "linf_polytope", Wrench::kPure);
+    Random random(5);
+    int excluded = 0;
+    for (int sample = 0; sample < samples(100); ++sample) {
+      Eigen::VectorXd lower = all.lower;
+      for (Eigen::Index i = 0; i < lower.size(); ++i) {
+        lower[i] = random.uniform(std::max(all.lower[i], -3.0), std::min(all.upper[i], 3.0));
+      }
+      BoxProof proof;
+      bound->evaluate(lower, lower.array() + kWidth, 0, kInfinity, proof);
+      if (proof.kind != BoxProof::Kind::kMultiplier || proof.high > -kInfinity) continue;
+      ++excluded;
+      EXPECT_TRUE(proof.multiplier.head(proof.multiplier.size() - model.m).isZero(0));
+      for (int point = 0; point < 20; ++point) {
+        Eigen::VectorXd x = lower;
+        for (double& each : x) each += random.uniform(0, kWidth);
+        EXPECT_GT(proof.multiplier.tail(model.m).dot(equations_at(model, x)), 0) << name;
+      }
+    }
+    EXPECT_GT(excluded, 0) << name;
   }
 }
 
