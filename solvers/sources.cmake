@@ -2,7 +2,7 @@ set(maxwrench_solvers_sources
   certify/bound/any_bound.cpp certify/bound/any_rows.cpp certify/bound/alone_list_bound.cpp certify/bound/ball_bound.cpp
   certify/bound/bound_points.cpp
   certify/bound/ceiling.cpp certify/bound/list_bound.cpp certify/bound/list_model.cpp certify/bound/list_multiplier.cpp certify/bound/list_rows.cpp certify/bound/capability_bound.cpp certify/bound/collision_bound.cpp
-  certify/bound/equation_points.cpp certify/bound/exact_posture.cpp
+  certify/bound/equation_points.cpp certify/bound/equation_program.cpp certify/bound/exact_posture.cpp
   certify/bound/free_bound.cpp certify/bound/free_limits.cpp certify/bound/free_points.cpp certify/bound/loop_box.cpp
   certify/bound/loop_linear.cpp certify/bound/loop_model.cpp certify/bound/loop_posture.cpp certify/bound/multi_affine.cpp
   certify/bound/thrust_points.cpp

@@ -61,11 +61,7 @@ double ProofOverBox::most(const Eigen::VectorXd& lower, const Eigen::VectorXd& u
   const double support = combine(multiplier, parts, tau_, a_);
   box_.over_box(tau_);
   box_.over_box(a_);
-  const double* const own = nu(multiplier, parts);
-  off_postures_.add_to(tau_, own);
-  const bool no_lambda = std::all_of(multiplier, own, [](double entry) { return entry == 0; });
-  const auto positive = [](const Narrow& x) { return x.low > 0; };
-  if (no_lambda && std::all_of(tau_.begin(), tau_.end(), positive)) return -kInfinity;
+  off_postures_.add_to(tau_, nu(multiplier, parts));
   if (!add_at_points(lower, upper, multiplier, tau_)) return high;
   double U = by_ends(support, low, high);
   if (U > low) U = std::min(U, by_ratio(support));

@@ -23,9 +23,7 @@ double pure_ceiling(const Problem& problem, const FormModel& model, const Vector
 /// The common part of the proofs of pure wrenches: with g_v and h_v at the control points v,
 ///
 ///     t <= s + max over v and t in {low, high} of t (1 - h_v) - g_v - nu'f_v,
-///     t <= max over v of (s - g_v - nu'f_v)/h_v  if h_v > 0 at all v,
-///
-/// and no posture is in the box if nu'f_v > 0 at all v, for which lambda = 0.
+///     t <= max over v of (s - g_v - nu'f_v)/h_v  if h_v > 0 at all v.
 class ProofOverBox : public ValueProof {
  public:
   ProofOverBox(const FormModel& model, const Equations& equations)
@@ -44,7 +42,7 @@ class ProofOverBox : public ValueProof {
                              const double* /*multiplier*/, std::vector<Narrow>& /*g*/) {
     return true;
   }
-  /// The entries of nu, after those of lambda.
+  /// The entries of nu.
   virtual const double* nu(const double* multiplier, std::size_t parts) const = 0;
 
   const FormModel& model_;

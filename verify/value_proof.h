@@ -44,9 +44,9 @@ class ValueProof {
 ///
 ///     t <= max over v of (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v
 ///
-/// if lambda'a_v > 0 at all v, and there is no posture if lambda = 0 and nu'f_v > 0 at all v. With
-/// shares of the forces of a second contact, `ContactLimits`, tau_d and J'c include these forces.
-/// Throws std::invalid_argument, in one line, for measures that it does not support.
+/// if lambda'a_v > 0 at all v. With shares of the forces of a second contact, `ContactLimits`,
+/// tau_d and J'c include these forces. Throws std::invalid_argument, in one line, for measures that
+/// it does not support.
 std::unique_ptr<ValueProof> make_pure_proof(const Problem& problem, const FormModel& model,
                                             const Equations& equations, const std::string& measure);
 

@@ -20,12 +20,14 @@ struct BoxProof {
     kNone,        ///< no reason: the box is too large for a bound
     kMultiplier,  ///< U(multiplier) <= high
     kCollision,   ///< the bodies of `pair` collide in all of the box; high is -infinity
-    kNoPosture    ///< all of the box was cut off; high is -infinity
+    kNoPosture    ///< the equations exclude all of the box; high is -infinity
   };
-  Kind kind = Kind::kNone;     ///< the kind of reason
-  double high = kInfinity;     ///< the upper bound [N or N m]
-  Eigen::VectorXd multiplier;  ///< lambda of the measure's program, or mu, one number per joint
-  int pair = -1;               ///< pair of the robot's `CollisionChecker`; -1: none
+  Kind kind = Kind::kNone;  ///< the kind of reason
+  double high = kInfinity;  ///< the upper bound [N or N m]
+  /// lambda of the measure's program, or mu, one number per joint; of `kNoPosture` that of
+  /// `BoxCut`, unless the box was cut off
+  Eigen::VectorXd multiplier;
+  int pair = -1;  ///< pair of the robot's `CollisionChecker`; -1: none
   /// A coordinate along which to cut the box, because one half then collides; -1: none is known. It
   /// proves nothing.
   int axis = -1;
@@ -44,6 +46,12 @@ struct BoxProof {
     kind = Kind::kMultiplier;
     high = U;
     multiplier = lambda;
+  }
+  /// Stores that the box has no posture, because nu'f(x) > 0 in all of it.
+  void exclude(const Eigen::VectorXd& nu) {
+    kind = Kind::kNoPosture;
+    high = -kInfinity;
+    multiplier = nu;
   }
 };
 

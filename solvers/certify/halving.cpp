@@ -77,6 +77,9 @@ void Halving::bound_one(CertifiedBox& box, double low) {
   const Eigen::VectorXd lower = box.lower.head(r), upper = box.upper.head(r);
   if (bound->shrink(box.lower, box.upper, options_.records ? &box.cuts : nullptr)) {
     bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
+    if (options_.records && box.proof.kind == BoxProof::Kind::kNoPosture) {
+      box.cuts.push_back({-1, false, 0, 0, box.proof.multiplier});
+    }
   } else {
     box.proof.kind = BoxProof::Kind::kNoPosture;
     box.proof.high = -kInfinity;

@@ -242,6 +242,10 @@ class AloneListBound final : public Bound {
       if (s == first) own = larger;
       each.bound->evaluate(part_of(lower, s), part_of(upper, s), down(low * each.length),
                            up(most * each.length), own);
+      if (own.kind == BoxProof::Kind::kNoPosture) {
+        proof.exclude(own.multiplier);
+        return;
+      }
       const double factor = up(own.high / each.length);
       if (!(factor < proof.high)) continue;
       Eigen::VectorXd numbers(own.multiplier.size() + 1);

@@ -12,6 +12,8 @@ namespace {
 constexpr std::size_t kMostAdded = 8;
 /// Without a limit, the program considers values up to this times the scale of those known.
 constexpr double kWide = 1e3;
+/// The scale of values of which none is known.
+constexpr double kUnknown = 1e3;
 /// A limit of the values is of use if it is at most this times their scale.
 constexpr double kMostUseful = 1e6;
 
@@ -19,13 +21,12 @@ constexpr double kMostUseful = 1e6;
 
 void PointValues::set_ends(double low, double high) {
   low_ = low;
-  scale_ = std::isfinite(low) ? std::max(1.0, std::abs(low)) : kWide;
-  most_is_limit_ = is_useful(high);
+  scale_ = std::isfinite(low) ? std::max(1.0, std::abs(low)) : kUnknown;
+  most_is_limit_ = std::isfinite(high) && is_useful(high);
   most_t_ = most_is_limit_ ? high : kWide * scale_;
-  least_t_ = std::isfinite(low) ? low : -kWide;
-  if (!std::isfinite(low) && most_is_limit_) {
-    least_t_ = std::min(least_t_, -2 * std::abs(high));
-  }
+  least_t_ = std::isfinite(low) ? low
+             : most_is_limit_   ? std::min(-kUnknown, -2 * std::abs(high))
+                                : -kUnknown;
 }
 
 bool PointValues::is_useful(double limit) const { return limit <= kMostUseful * scale_; }
@@ -68,7 +69,7 @@ std::vector<int> ProgramPoints::numbered(std::vector<int> columns, int first) co
   return columns;
 }
 
-void ProgramPoints::add_corners(const Coordinates& chain, Eigen::Index size) {
+void ProgramPoints::add_corners(const Coordinates& chain, Eigen::Index size, int ends) {
   for (Eigen::Index v = 0; v < size && count() + 2 <= kMost / 2; ++v) {
     Eigen::Index rest = v;
     bool corner = true;
@@ -78,7 +79,7 @@ void ProgramPoints::add_corners(const Coordinates& chain, Eigen::Index size) {
     }
     if (!corner) continue;
     ids_.push_back(static_cast<int>(v));
-    ids_.push_back(static_cast<int>(v + size));
+    if (ends == 2) ids_.push_back(static_cast<int>(v + size));
   }
 }
 

@@ -16,8 +16,9 @@ class PointValues {
   void set_ends(double low, double high);
   double least_t() const { return least_t_; }
   double most_t() const { return most_t_; }
-  /// Whether a limit of the values is in proportion to the known ones. A larger one follows from
-  /// rounding alone: it spoils programs, and an exact check does not find it again.
+  /// Whether a limit of the values is in proportion to the known ones, of which the scale is at
+  /// least 1 and, without a `low`, 1000. A larger limit may follow from rounding alone. It spoils
+  /// programs, and an exact check does not find it again.
   bool is_useful(double limit) const;
 
   /// U = s + the largest value, rounding included, if `low` is finite and `high` useful; else, and
@@ -50,8 +51,9 @@ class ProgramPoints {
   std::vector<int> begin(const std::vector<int>& basis, int first);
   /// The same basis with the numbers of points, for the program of a part of the box.
   std::vector<int> numbered(std::vector<int> columns, int first) const;
-  /// Adds the corners of a box, if there are not too many.
-  void add_corners(const Coordinates& chain, Eigen::Index size);
+  /// Adds the corners of a box, if there are not too many, with least_t or, of two `ends`, with
+  /// both.
+  void add_corners(const Coordinates& chain, Eigen::Index size, int ends = 2);
   /// Adds the numbers of some of the largest values above a limit, which are their places, or
   /// those that `number` makes of them. Returns false if there are none that are new, or no room
   /// for them.

@@ -2,6 +2,7 @@
 #include <stdexcept>
 
 #include "solvers/certify/bound/bounds.h"
+#include "solvers/certify/bound/equation_program.h"
 #include "solvers/certify/bound/free_points.h"
 #include "solvers/certify/bound/loop_linear.h"
 #include "solvers/certify/bound/program_rounds.h"
@@ -19,6 +20,7 @@ class FreeBound final : public Bound {
         own_rows_(model_->n - columns_->k),
         box_(*model_),
         linear_(*model_),
+        equations_(*model_),
         free_(columns_, *model_, set_),
         program_(Eigen::MatrixXd::Zero(own_rows_ + model_->m, set_->actuators()), set_->u_min,
                  set_->u_max, ProgramPoints::kMost),
@@ -45,7 +47,12 @@ class FreeBound final : public Bound {
   void evaluate(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, double low, double high,
                 BoxProof& proof) override {
     proof.forget(high);
-    if (!box_.set(lower, upper) || !free_.set(box_, lower, upper, low, high)) return;
+    if (!box_.set(lower, upper)) return;
+    if (!free_.set(box_, lower, upper, low, high)) {
+      linear_.precondition(lower, upper);
+      equations_.exclude(lower, upper, box_, linear_, proof);
+      return;
+    }
     low_ = free_.least_t();
     high_ = free_.most_t();
     values_.set_ends(low_, high_);
@@ -62,6 +69,8 @@ class FreeBound final : public Bound {
     take(high_, proof);
     if (proof.high <= low) return;
     linear_.precondition(lower, upper);
+    const bool known = values_.is_useful(proof.high);
+    if (!known && equations_.exclude(lower, upper, box_, linear_, proof)) return;
     program_.set_columns(free_.N().transpose() * set_->B);
     improve_by_rounds(low, proof);
   }
@@ -127,6 +136,7 @@ class FreeBound final : public Bound {
   const Eigen::Index own_rows_;  ///< multipliers lambda = N y: the length of y
   LoopBox box_;
   LoopLinear linear_;
+  EquationProgram equations_;
   FreePoints free_;
   MultiplierProgram program_;
   PointValues values_;

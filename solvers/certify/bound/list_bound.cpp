@@ -8,6 +8,7 @@
 #include "solvers/certify/bound/bound_points.h"
 #include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/bound/box_support.h"
+#include "solvers/certify/bound/equation_program.h"
 #include "solvers/certify/bound/list_multiplier.h"
 #include "solvers/certify/bound/list_rows.h"
 #include "solvers/certify/bound/loop_box.h"
@@ -29,6 +30,7 @@ class ListBound final : public Bound {
         most_rank_(std::min<Eigen::Index>(first_.m, first_.coordinates.chain.count())),
         support_(model_->kept().robot.actuation, false),
         linear_(first_),
+        equations_(first_),
         rows_(*model_),
         multiplier_(*model_),
         programs_(static_cast<std::size_t>(ListRows::kMost + most_rank_ + 1)),
@@ -61,6 +63,8 @@ class ListBound final : public Bound {
     take(value(), proof);
     if (proof.high <= low) return;
     if (first_.m > 0) linear_.precondition(lower, upper);
+    const bool known = values_.is_useful(proof.high);
+    if (!known && equations_.exclude(lower, upper, boxes_.front(), linear_, proof)) return;
     rank_ = std::min<Eigen::Index>(linear_.rank(), most_rank_);
     improve_by_rounds(low, proof);
   }
@@ -163,8 +167,8 @@ class ListBound final : public Bound {
       take(value(), proof);
       if (proof.high <= low) break;
       const double now = s_ + values_.at().maxCoeff();
-      const bool close =
-          std::isfinite(proof.high) && now - least <= kClose * std::max(proof.high - least_t, 0.0);
+      const bool close = values_.is_useful(proof.high) &&
+                         now - least <= kClose * std::max(proof.high - least_t, 0.0);
       if (!close && add_points(least)) continue;
       if (least > before - kUseful * std::max(before - least_t, 0.0)) break;
       before = least;
@@ -313,6 +317,7 @@ class ListBound final : public Bound {
   BoxSupport support_;
   std::vector<LoopBox> boxes_;
   LoopLinear linear_;
+  EquationProgram equations_;
   ListRows rows_;
   ListMultiplier multiplier_;
   std::vector<std::unique_ptr<MultiplierProgram>> programs_;  ///< by the number of rows

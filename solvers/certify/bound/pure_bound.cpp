@@ -8,6 +8,7 @@
 #include "solvers/certify/bound/bounds.h"
 #include "solvers/certify/bound/box_support.h"
 #include "solvers/certify/bound/ellipsoid_support.h"
+#include "solvers/certify/bound/equation_program.h"
 #include "solvers/certify/bound/loop_box.h"
 #include "solvers/certify/bound/loop_linear.h"
 #include "solvers/certify/bound/program_rounds.h"
@@ -35,6 +36,7 @@ class PureBound final : public Bound {
         thrust_(std::move(thrust)),
         box_(*model_),
         linear_(*model_),
+        equations_(*model_),
         program_(extended_B(), set_->u_min.head(found_by_program() ? set_->actuators() : 0),
                  set_->u_max.head(found_by_program() ? set_->actuators() : 0),
                  ProgramPoints::kMost),
@@ -66,7 +68,7 @@ class PureBound final : public Bound {
     if (model_->coordinates.forces_grow() && low < 0) {  // only t >= 0 is known
       if (!(high > 0)) return;
       bound_from(lower, upper, 0, high, proof);
-      proof.high = std::max(proof.high, 0.0);
+      if (proof.kind != BoxProof::Kind::kNoPosture) proof.high = std::max(proof.high, 0.0);
       return;
     }
     bound_from(lower, upper, low, high, proof);
@@ -92,47 +94,13 @@ class PureBound final : public Bound {
       value();
     }
     if (model_->m > 0) linear_.precondition(lower, upper);
+    const bool known = values_.is_useful(proof.high);
+    if (!known && equations_.exclude(lower, upper, box_, linear_, proof)) return;
     rows_used_ = model_->size > kFew ? equation_rows_
                                      : std::min<Eigen::Index>(linear_.rank(), equation_rows_);
     if (ellipsoid_) aim(lower, upper, low, proof);
     if (proof.high <= low || entries_.size() == 0) return;
     improve_by_rounds(low, proof);
-    if (values_.is_useful(proof.high) || exclude(proof)) return;
-    if (found_by_program()) try_rows(proof);
-  }
-
-  /// Looks for a nu with nu'f > 0 at all control points: then the box has no posture, whatever t
-  /// is.
-  bool exclude(BoxProof& proof) {
-    excluding_ = true;
-    bool excluded = false;
-    lambda_.setZero();
-    rounds_.begin({}, *model_, values_.at());
-    for (int round = 0; round < kMostRounds && !excluded; ++round) {
-      const double least = program_.solve(-1, kMostSteps, rounds_.columns(), solved_);
-      if (least > -1) break;
-      set_nu();
-      value();
-      const double off = kBoundRounding * kMostSpread * nu_.cwiseAbs().dot(model_->f);
-      excluded = box_.g().minCoeff() > off;
-      below_ = -box_.g();
-      if (!excluded && !rounds_.add(below_, least)) break;
-    }
-    excluding_ = false;
-    if (excluded) take(-kInfinity, proof);
-    return excluded;
-  }
-
-  /// Where no useful limit of the values is known, the program can end at a nu so large that its
-  /// rounding spoils any bound. One row alone bounds the value where its entry of a has one sign.
-  void try_rows(BoxProof& proof) {
-    nu_.setZero(model_->m);
-    for (Eigen::Index row = 0; row < rows(); ++row) {
-      for (const double sign : {1.0, -1.0}) {
-        lambda_ = sign * Eigen::VectorXd::Unit(rows(), row);
-        take(value(), proof);
-      }
-    }
   }
 
   static constexpr int kMostRounds = 24;
@@ -176,7 +144,7 @@ class PureBound final : public Bound {
   void take(double U, BoxProof& proof) {
     both_.resize(lambda_.size() + nu_.size());
     both_ << lambda_, nu_;
-    if (values_.is_useful(U)) proof.improve(U, both_);
+    proof.improve(U, both_);
   }
 
   /// U(lambda, nu), rounding included. Leaves the violations in at_.
@@ -210,7 +178,8 @@ class PureBound final : public Bound {
                                           rounds_.columns(), solved_);
       if (!ellipsoid_) lambda_ = solved_.head(rows());
       for (const int row : model_->dropped) lambda_[row] = 0;
-      set_nu();
+      nu_.noalias() =
+          linear_.M().topRows(rows_used_).transpose() * solved_.segment(free_rows(), rows_used_);
       take(value(), proof);
       if (proof.high <= low) break;
       const double now = s_ + values_.at().maxCoeff();
@@ -219,12 +188,6 @@ class PureBound final : public Bound {
       if (!rounds_.add(values_.at(), least - s_)) break;
     }
     proof.basis = rounds_.basis();
-  }
-
-  /// The nu of the program's solution.
-  void set_nu() {
-    nu_.noalias() =
-        linear_.M().topRows(rows_used_).transpose() * solved_.segment(free_rows(), rows_used_);
   }
 
   void write_point(Eigen::Index i, Eigen::Index id) {
@@ -242,10 +205,6 @@ class PureBound final : public Bound {
       entries_.head(rows).noalias() = K_ * load_;
     } else {
       entries_.head(rows) = load_;
-    }
-    if (excluding_) {
-      cost = 0;
-      entries_.head(rows).setZero();
     }
     entries_.tail(equation_rows_).setZero();
     entries_.segment(rows, rows_used_).noalias() = linear_.M().topRows(rows_used_) * box_.f();
@@ -271,13 +230,13 @@ class PureBound final : public Bound {
   std::optional<ThrustPoints> thrust_;
   LoopBox box_;
   LoopLinear linear_;
+  EquationProgram equations_;
   MultiplierProgram program_;
   Eigen::Index rows_used_ = 0;
   PointValues values_;
   ProgramRounds rounds_;
   double s_ = 0;
-  bool excluding_ = false;  ///< the program's points are those of nu'f alone
-  Eigen::VectorXd lambda_, nu_, solved_, both_, reach_, sizes_, entries_, load_, below_;
+  Eigen::VectorXd lambda_, nu_, solved_, both_, reach_, sizes_, entries_, load_;
 };
 
 }  // namespace
