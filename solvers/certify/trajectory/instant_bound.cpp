@@ -291,9 +291,9 @@ Eigen::VectorXd joined(const Eigen::VectorXd& place, const Eigen::VectorXd& rate
 }  // namespace
 
 bool PlanInstant::rests() const {
-  constexpr double kStill = 1e-12;  // the rows of a scheme's rates are rounded
+  constexpr double kNoRate = 1e-12;  // the rows of a scheme's rates are rounded
   const auto zero = [](const Eigen::VectorXd& range) {
-    return range.lpNorm<Eigen::Infinity>() <= kStill;
+    return range.lpNorm<Eigen::Infinity>() <= kNoRate;
   };
   return x.twist.isZero(0) && zero(ranges.rate.low) && zero(ranges.rate.high);
 }
