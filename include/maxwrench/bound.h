@@ -22,11 +22,11 @@ struct BoxProof {
     kCollision,   ///< the bodies of `pair` collide in all of the box; high is -infinity
     kNoPosture    ///< the equations exclude all of the box; high is -infinity
   };
-  Kind kind = Kind::kNone;  ///< the kind of reason
-  double high = kInfinity;  ///< the upper bound [N or N m]
-  /// lambda of the measure's program, or mu, one number per joint; of `kNoPosture` that of
-  /// `BoxCut`, unless the box was cut off
-  Eigen::VectorXd multiplier;
+  Kind kind = Kind::kNone;     ///< the kind of reason
+  double high = kInfinity;     ///< the upper bound [N or N m]
+  Eigen::VectorXd multiplier;  ///< lambda of the measure's program, or mu, one number per joint
+  /// Of `kNoPosture`: nu'f(x) > 0 in all of the box. Empty if slices that were cut off contain it.
+  Eigen::VectorXd nu;
   int pair = -1;  ///< pair of the robot's `CollisionChecker`; -1: none
   /// A coordinate along which to cut the box, because one half then collides; -1: none is known. It
   /// proves nothing.
@@ -47,11 +47,13 @@ struct BoxProof {
     high = U;
     multiplier = lambda;
   }
-  /// Stores that the box has no posture, because nu'f(x) > 0 in all of it.
-  void exclude(const Eigen::VectorXd& nu) {
+  /// Stores that the box has no posture.
+  ///
+  /// @param by  the `nu` that proves it, or empty
+  void exclude(const Eigen::VectorXd& by) {
     kind = Kind::kNoPosture;
     high = -kInfinity;
-    multiplier = nu;
+    nu = by;
   }
 };
 

@@ -14,7 +14,8 @@ namespace maxwrench {
 struct CertifiedBox {
   Eigen::VectorXd lower, upper;
   double low = 0, high = 0;
-  /// The slices cut off before the rest was bounded; recorded only if there is a sink.
+  /// The slices cut off one after another, and at last the box if its equations exclude it;
+  /// recorded only if there is a sink.
   std::vector<BoxCut> cuts;
   BoxProof proof;
   int depth = 0;

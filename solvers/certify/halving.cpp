@@ -78,11 +78,10 @@ void Halving::bound_one(CertifiedBox& box, double low) {
   if (bound->shrink(box.lower, box.upper, options_.records ? &box.cuts : nullptr)) {
     bound->evaluate(box.lower, box.upper, box.low, box.high, box.proof);
     if (options_.records && box.proof.kind == BoxProof::Kind::kNoPosture) {
-      box.cuts.push_back({-1, false, 0, 0, box.proof.multiplier});
+      box.cuts.push_back({.multiplier = box.proof.nu});
     }
   } else {
-    box.proof.kind = BoxProof::Kind::kNoPosture;
-    box.proof.high = -kInfinity;
+    box.proof.exclude({});
   }
   box.lower.head(r) = lower;
   box.upper.head(r) = upper;

@@ -42,7 +42,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Shipped{"dual_arm/bar_wall", "l2_polytope", Wrench::kPure, 1e-3},
                     Shipped{"planar/two_arms", "linf_polytope", Wrench::kPure, 1e-2},
                     Shipped{"mobile/push", "linf_polytope", Wrench::kAny, 1e-1}));
-// Many boxes, of which only the equations exclude some.
+// Many boxes, some of which only the equations exclude.
 INSTANTIATE_TEST_SUITE_P(
     SLOW_Static, VerifyShipped,
     testing::Values(Shipped{"gallery/gen3/lift", "linf_polytope", Wrench::kPure, 3e-1},

@@ -243,7 +243,7 @@ class AloneListBound final : public Bound {
       each.bound->evaluate(part_of(lower, s), part_of(upper, s), down(low * each.length),
                            up(most * each.length), own);
       if (own.kind == BoxProof::Kind::kNoPosture) {
-        proof.exclude(own.multiplier);
+        proof.exclude(own.nu);
         return;
       }
       const double factor = up(own.high / each.length);

@@ -24,9 +24,8 @@ void PointValues::set_ends(double low, double high) {
   scale_ = std::isfinite(low) ? std::max(1.0, std::abs(low)) : kUnknown;
   most_is_limit_ = std::isfinite(high) && is_useful(high);
   most_t_ = most_is_limit_ ? high : kWide * scale_;
-  least_t_ = std::isfinite(low) ? low
-             : most_is_limit_   ? std::min(-kUnknown, -2 * std::abs(high))
-                                : -kUnknown;
+  const double reach = most_is_limit_ ? 2 * std::abs(high) : 0;
+  least_t_ = std::isfinite(low) ? low : -std::max(kUnknown, reach);
 }
 
 bool PointValues::is_useful(double limit) const { return limit <= kMostUseful * scale_; }
@@ -69,7 +68,7 @@ std::vector<int> ProgramPoints::numbered(std::vector<int> columns, int first) co
   return columns;
 }
 
-void ProgramPoints::add_corners(const Coordinates& chain, Eigen::Index size, int ends) {
+void ProgramPoints::add_corners(const Coordinates& chain, Eigen::Index size) {
   for (Eigen::Index v = 0; v < size && count() + 2 <= kMost / 2; ++v) {
     Eigen::Index rest = v;
     bool corner = true;
@@ -79,7 +78,7 @@ void ProgramPoints::add_corners(const Coordinates& chain, Eigen::Index size, int
     }
     if (!corner) continue;
     ids_.push_back(static_cast<int>(v));
-    if (ends == 2) ids_.push_back(static_cast<int>(v + size));
+    ids_.push_back(static_cast<int>(v + size));
   }
 }
 

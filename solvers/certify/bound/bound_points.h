@@ -51,9 +51,8 @@ class ProgramPoints {
   std::vector<int> begin(const std::vector<int>& basis, int first);
   /// The same basis with the numbers of points, for the program of a part of the box.
   std::vector<int> numbered(std::vector<int> columns, int first) const;
-  /// Adds the corners of a box, if there are not too many, with least_t or, of two `ends`, with
-  /// both.
-  void add_corners(const Coordinates& chain, Eigen::Index size, int ends = 2);
+  /// Adds the corners of a box, if there are not too many.
+  void add_corners(const Coordinates& chain, Eigen::Index size);
   /// Adds the numbers of some of the largest values above a limit, which are their places, or
   /// those that `number` makes of them. Returns false if there are none that are new, or no room
   /// for them.

@@ -36,8 +36,8 @@ inline constexpr double kCeilingMargin = 1;
 /// If the base follows in closed form, x is theta_r, and there are no equations. The lambda and nu
 /// with the least U are used. In sign, lambda is minus the multiplier of the lower level. The
 /// multiplier is [lambda; nu]. Where lambda'a_v > 0 at all control points, the largest
-/// (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v is also a bound. Where no useful bound is found,
-/// `EquationProgram` may exclude the box.
+/// (s(lambda) - lambda'tau_v - nu'f_v)/lambda'a_v is also a bound. Where no useful limit
+/// of the values is known, `EquationProgram` may exclude the box.
 ///
 /// The convex set of linf_polytope is {B u}. For l2_polytope the program is the same with (I, B^+
 /// a, B^+ tau). The ellipsoid is |W_u B^+ tau| <= 1, with lambda from the centre of the box.
@@ -66,7 +66,7 @@ std::unique_ptr<Bound> make_any_wrench_bound(const Problem& problem);
 ///                        - lambda'A_v (P (B u - tau_m) + rho).
 ///
 /// The multiplier is [lambda; nu; the lambda of the centre, from which P follows]. A box in which
-/// nothing limits h has no bound, but `EquationProgram` may exclude it. `low` and `high` are at
+/// nothing limits h has no bound, unless `EquationProgram` excludes it. `low` and `high` are at
 /// most what limits t there, `FreeLimits`. Throws std::invalid_argument, with one line, for more
 /// free components than the robot has coordinates, and for too many actuators.
 std::unique_ptr<Bound> make_free_bound(const Problem& problem);

@@ -13,7 +13,13 @@ EquationProgram::EquationProgram(const LoopModel& model)
                ProgramPoints::kMost),
       signs_(model),
       no_lambda_(Eigen::VectorXd::Zero(model.n)),
-      entries_(model.m) {}
+      entries_(model.m) {
+  ProgramPoints at_both_ends;
+  at_both_ends.add_corners(model.coordinates.chain, model.size);
+  for (const int id : at_both_ends.ids()) {
+    if (id < model.size) corners_.add(id);  // f does not depend on t
+  }
+}
 
 bool EquationProgram::exclude(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper,
                               LoopBox& box, const LoopLinear& linear, BoxProof& proof) {
@@ -28,9 +34,8 @@ bool EquationProgram::find(const Eigen::VectorXd& lower, const Eigen::VectorXd& 
   constexpr int kMostSteps = 120;
   constexpr double kEnough = -1;  // any negative number: nu has no unit
   basis_.clear();
-  points_.clear();
-  points_.add_corners(model_.coordinates.chain, model_.size, 1);
-  add_points(0, box, linear);
+  points_ = corners_;
+  write_points(0, box, linear);
   for (int round = 0; round < kMostRounds; ++round) {
     const double least = program_.solve(kEnough, kMostSteps, basis_, solved_);
     if (least > kEnough) return false;
@@ -40,15 +45,15 @@ bool EquationProgram::find(const Eigen::VectorXd& lower, const Eigen::VectorXd& 
     violations_ = -box.g();
     if (violations_.maxCoeff() < 0) return signs_.sign(lower, upper, nu_) > 0;
     const Eigen::Index before = points_.count();
-    if (!points_.add_largest(violations_, least)) return false;
-    add_points(before, box, linear);
+    if (!points_.add_largest(violations_, 0)) return false;
+    write_points(before, box, linear);
   }
   return false;
 }
 
-/// Adds the columns of the points from `first` on. Their costs are in [0, 1) and differ: with equal
-/// costs the simplex stalls.
-void EquationProgram::add_points(Eigen::Index first, LoopBox& box, const LoopLinear& linear) {
+/// Writes the columns of the points from `first` on. Their costs are in [0, 1) and differ: with
+/// equal costs the simplex stalls.
+void EquationProgram::write_points(Eigen::Index first, LoopBox& box, const LoopLinear& linear) {
   program_.set_points(points_.count());
   for (Eigen::Index i = first; i < points_.count(); ++i) {
     const int id = points_.ids()[static_cast<std::size_t>(i)];

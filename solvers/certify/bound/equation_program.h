@@ -19,19 +19,19 @@ class EquationProgram {
   explicit EquationProgram(const LoopModel& model);
   explicit EquationProgram(const LoopModel&&) = delete;
 
-  /// Stores such a nu in the proof and returns true, if it finds one. `box` is set to the same box,
-  /// `linear` has preconditioned it, and `box.g()` changes.
+  /// If it finds such a nu, stores it in the proof and returns true. Requires that `box.set` and
+  /// `linear.precondition` had this box. Overwrites `box.g()` and `box.h()`.
   bool exclude(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, LoopBox& box,
                const LoopLinear& linear, BoxProof& proof);
 
  private:
   bool find(const Eigen::VectorXd& lower, const Eigen::VectorXd& upper, LoopBox& box,
             const LoopLinear& linear);
-  void add_points(Eigen::Index first, LoopBox& box, const LoopLinear& linear);
+  void write_points(Eigen::Index first, LoopBox& box, const LoopLinear& linear);
 
   const LoopModel& model_;
   MultiplierProgram program_;
-  ProgramPoints points_;
+  ProgramPoints corners_, points_;
   EquationPoints signs_;
   std::vector<int> basis_;
   Eigen::VectorXd no_lambda_, nu_, solved_, violations_, entries_;

@@ -111,7 +111,9 @@ class FreeBound final : public Bound {
       nu_.noalias() = linear_.M().transpose() * solved_.tail(model_->m);
       take(value(), proof);
       if (proof.high <= low) break;
-      if (values_.at().maxCoeff() - least <= kClose * std::max(proof.high - low_, 0.0)) break;
+      const bool useful = values_.is_useful(proof.high);
+      const double off = values_.at().maxCoeff() - least;
+      if (useful && off <= kClose * std::max(proof.high - low_, 0.0)) break;
       if (!rounds_.add(values_.at(), least)) break;
     }
     proof.basis = rounds_.basis();

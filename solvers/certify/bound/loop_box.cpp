@@ -50,12 +50,15 @@ void LoopBox::weigh(const Eigen::VectorXd& lambda, const Eigen::VectorXd& slopes
     const Eigen::VectorXd& all = part.kind == LoopPart::Kind::kEquations ? nu : lambda;
     own_.resize(count);
     for (Eigen::Index k = 0; k < count; ++k) own_[k] = all[part.rows[static_cast<std::size_t>(k)]];
-    sum_.noalias() = P.topRows(count).transpose() * own_;
-    spread_out(part.repeat, sum_, g_);
+    if (!own_.isZero(0)) {
+      sum_.noalias() = P.topRows(count).transpose() * own_;
+      spread_out(part.repeat, sum_, g_);
+    }
     if (part.kind != LoopPart::Kind::kLoads) continue;
     for (Eigen::Index k = 0; k < count; ++k) {
       own_[k] = slopes[part.rows[static_cast<std::size_t>(k)]];
     }
+    if (own_.isZero(0)) continue;
     sum_.noalias() = P.bottomRows(count).transpose() * own_;
     spread_out(part.repeat, sum_, h_);
   }

@@ -216,7 +216,8 @@ class InstantBound final : public Bound {
       proof.improve(value(), lambda_);
       if (proof.high <= low || round == kMostRounds) return;
       const double now = s_ + values_.at().maxCoeff();
-      if (now - least <= kClose * std::max(proof.high - values_.least_t(), 0.0)) return;
+      const bool useful = values_.is_useful(proof.high);
+      if (useful && now - least <= kClose * std::max(proof.high - values_.least_t(), 0.0)) return;
       if (!add_points(least, round == 0)) return;
       least = program_.solve(values_.least_t() - kBelow * std::abs(values_.least_t()), kMostSteps,
                              proof.basis, lambda_);
